@@ -1,4 +1,4 @@
-/* cmocka with what it needs before it and the assertions that it lacks. */
+/* cmocka with the headers that it requires, and further assertions. */
 #pragma once
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Memory that runs out when a test says so. Programs named test_*_memory are linked so that their calls of
- * the allocating functions, and those of the rooms, come here first. */
+/* Simulated out-of-memory conditions. Programs named test_*_memory are linked so that calls of the allocating
+ * functions, also from the library, come here first. */
 #pragma once
 
 #include <stdatomic.h>

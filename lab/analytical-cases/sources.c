@@ -46,7 +46,7 @@ static void point_source(lab_case *made, double height) {
     }
 }
 
-#define LAMP BLACK "<emitter type='area'><float name='radiance' value='1'/></emitter>"
+#define EMITTER BLACK "<emitter type='area'><float name='radiance' value='1'/></emitter>"
 
 static void add_patch_points(lab_case *made, const lab_patch *patch, size_t count,
                              const lab_receiver *receivers) {
@@ -56,7 +56,7 @@ static void add_patch_points(lab_case *made, const lab_patch *patch, size_t coun
 }
 
 static void rectangle_source(lab_case *made, double height) {
-    const lab_patch lamp = {{-0.5, -1.0, height}, {0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}};
+    const lab_patch emitter = {{-0.5, -1.0, height}, {0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}};
     lab_receiver at[20];
     for (size_t i = 0; i < 20; ++i) {
         at[i] = up_at(0.5 * (double)(i % 5), 0.5 * (double)(i / 5), 0.0);
@@ -65,24 +65,24 @@ static void rectangle_source(lab_case *made, double height) {
             at[i].normal[2] = 0.96;
         }
     }
-    lab_case_patch(made, &lamp, LAMP);
-    add_patch_points(made, &lamp, 20, at);
+    lab_case_patch(made, &emitter, EMITTER);
+    add_patch_points(made, &emitter, 20, at);
 }
 
 static void wall_source(lab_case *made, double distance) {
-    const lab_patch lamp = {{-1.0, distance, 0.2}, {2.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
+    const lab_patch emitter = {{-1.0, distance, 0.2}, {2.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
     lab_receiver at[20];
     for (size_t i = 0; i < 20; ++i)
         at[i] = up_at(0.5 * (double)(i % 5), 0.5 * (double)(i / 5), 0.0);
-    lab_case_patch(made, &lamp, LAMP);
-    add_patch_points(made, &lamp, 20, at);
+    lab_case_patch(made, &emitter, EMITTER);
+    add_patch_points(made, &emitter, 20, at);
 }
 
 static void disk_source(lab_case *made, double radius) {
     lab_case_put(made,
                  "<shape type='disk'><transform name='to_world'><scale value='%g'/><rotate x='1' "
                  "angle='180'/><translate z='2'/></transform>%s</shape>",
-                 radius, LAMP);
+                 radius, EMITTER);
     for (int i = 0; i < 12; ++i) {
         const double aside = 0.3 * i;
         const lab_receiver at = up_at(aside * 0.6, aside * 0.8, 0.0);

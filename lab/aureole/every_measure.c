@@ -28,8 +28,8 @@ static bool is_on(const aur_set_description *set, aur_domain domain) {
 /* A measure with a single value on the domain that is not a bound of another one; parameters are 3/2. */
 static bool find_metric(const aur_measure_description *measure, aur_domain domain, char metric[64]) {
     const char *const name = aur_domain_name(domain), *const found = strstr(measure->domains, name);
-    const bool wanted = measure->parameter != NULL && measure->parameter[0] == ':';
-    snprintf(metric, 64, "%s%s", measure->row.name, wanted ? ":1.5" : "");
+    const bool needs_parameter = measure->parameter != NULL && measure->parameter[0] == ':';
+    snprintf(metric, 64, "%s%s", measure->row.name, needs_parameter ? ":1.5" : "");
     /* "sphere" is also a suffix of "hemisphere" */
     const char *const whole =
         found == NULL || found == measure->domains || found[-1] == ' ' ? found : strstr(found + 1, name);

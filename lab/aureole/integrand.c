@@ -39,14 +39,14 @@ static aur_result clamped_cosine(void *user, size_t count, size_t dimension, con
 }
 
 static const lab_named_integrand *find(const char *name) {
-    static const lab_named_integrand own[] = {
+    static const lab_named_integrand built_in[] = {
         {"quarter-disk", AUR_DOMAIN_SQUARE, 0, quarter_disk, NULL, 0.78539816339744830962},
         {"exponential", AUR_DOMAIN_SQUARE, 0, exponential, NULL, 2.9524924420125598},
         {"clamped-cosine", AUR_DOMAIN_SPHERE, 0, clamped_cosine, NULL, 0.25}};
     const lab_named_integrand *const added = lab_find_integrand(name);
-    for (size_t i = 0; added == NULL && i < sizeof own / sizeof own[0]; ++i)
-        if (strcmp(own[i].name, name) == 0)
-            return &own[i];
+    for (size_t i = 0; added == NULL && i < sizeof built_in / sizeof built_in[0]; ++i)
+        if (strcmp(built_in[i].name, name) == 0)
+            return &built_in[i];
     return added;
 }
 

@@ -92,8 +92,8 @@ static aur_result deviations(const lab_run *run, const aur_scene *scene, bool ou
     return result;
 }
 
-/* The opening at which Delta_aw at the largest size is `wanted`, and the fraction of flights that leave. */
-static aur_result find_opening(lab_run *run, size_t room, size_t size_count, double wanted, double found[2],
+/* The opening at which Delta_aw at the largest size is `target`, and the fraction of flights that leave. */
+static aur_result find_opening(lab_run *run, size_t room, size_t size_count, double target, double found[2],
                                aur_error *error) {
     double low = 0.0, high = 1.99;
     char key[64];
@@ -110,7 +110,7 @@ static aur_result find_opening(lab_run *run, size_t room, size_t size_count, dou
         aur_scene_destroy(scene);
         if (result != AUR_OK)
             return result;
-        *(sqrt(squares[size_count - 1][1]) < wanted ? &low : &high) = found[0];
+        *(sqrt(squares[size_count - 1][1]) < target ? &low : &high) = found[0];
     }
     return lab_keep(run, key, 2, found, error);
 }
@@ -178,7 +178,7 @@ static void add_rows(tried_cause *tried, size_t set, const char *name,
 
 /* The fractions that match both published floors at the largest N, over the paper's sets. */
 static aur_result fit_unlit(tried_cause *tried, aur_error *error) {
-    double wanted[TABLES] = {0}, found[TABLES] = {0};
+    double target[TABLES] = {0}, found[TABLES] = {0};
     keller_set of;
     size_t sets = 0;
     const size_t last = tried->size_count - 1;
@@ -191,13 +191,13 @@ static aur_result fit_unlit(tried_cause *tried, aur_error *error) {
             return result;
         ++sets;
         for (size_t table = 0; table < TABLES; ++table) {
-            wanted[table] += pow(published(table, tried->room, last, set), 2.0);
+            target[table] += pow(published(table, tried->room, last, set), 2.0);
             for (size_t v = 0; v < VARIANTS; ++v)
                 found[table] += squares[v][last][table] / VARIANTS;
         }
     }
     for (size_t table = 0; table < TABLES; ++table) {
-        const double w = wanted[table] / (double)sets, f = found[table] / (double)sets;
+        const double w = target[table] / (double)sets, f = found[table] / (double)sets;
         const double most = 0.0625 / (table == 0 ? 1.0 : tried->triangles);
         tried->unlit[table] = fmax(0.0, fmin(1.0, (w - f) / (most - f)));
     }
@@ -253,10 +253,10 @@ static aur_result try_cause(tried_cause *tried, double opening, aur_error *error
 
 static aur_result study_room(lab_run *run, size_t room, aur_error *error) {
     const size_t size_count = lab_run_options(run)->quick ? 2 : KELLER_SIZES;
-    double wanted = 0.0, found[2] = {0};
+    double target = 0.0, found[2] = {0};
     for (size_t set = 0; set < KELLER_PUBLISHED_SETS; ++set)
-        wanted += keller_table3(room, size_count - 1, set) / KELLER_PUBLISHED_SETS;
-    aur_result result = find_opening(run, room, size_count, wanted, found, error);
+        target += keller_table3(room, size_count - 1, set) / KELLER_PUBLISHED_SETS;
+    aur_result result = find_opening(run, room, size_count, target, found, error);
     for (size_t cause = 0; cause < CAUSES && result == AUR_OK; ++cause) {
         tried_cause tried = {.run = run, .room = room, .size_count = size_count, .cause = (floor_cause)cause};
         result = try_cause(&tried, found[0], error);

@@ -8,12 +8,12 @@ const char *const lab_tally_of_rays[] = {"case", "target", "runs", "held", "bias
 const char *const lab_tally_of_samples[] = {"case", "target",    "runs",    "held",
                                             "bias", "error_rms", "samples", NULL};
 
-void lab_tally_count(lab_tally *tally, double value, double half_width, double truth, double work) {
-    const double off = value - truth;
+void lab_tally_count(lab_tally *tally, double value, double half_width, double reference, double work) {
+    const double off = value - reference;
     ++tally->runs;
     tally->held += fabs(off) <= half_width;
-    tally->bias += off / truth;
-    tally->squares += off * off / (truth * truth);
+    tally->bias += off / reference;
+    tally->squares += off * off / (reference * reference);
     tally->work += work;
 }
 

@@ -161,13 +161,13 @@ static aur_result study(lab_run *run, const coverage_case *given, lab_tally *poo
         result = measure(run, facets, given, seed, numbers[seed][0], numbers[seed][1], &count, error);
     lab_tally t = {0};
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        double truth = 0.0, widths = 0.0;
+        double reference = 0.0, widths = 0.0;
         for (size_t seed = 0; seed < seeds; ++seed) {
-            truth += numbers[seed][0][i] / (double)seeds;
+            reference += numbers[seed][0][i] / (double)seeds;
             widths += numbers[seed][1][i];
         }
-        for (size_t seed = 0; seed < seeds && truth > 0.0 && widths > 0.0; ++seed)
-            lab_tally_count(&t, numbers[seed][0][i], numbers[seed][1][i], truth, (double)given->rays);
+        for (size_t seed = 0; seed < seeds && reference > 0.0 && widths > 0.0; ++seed)
+            lab_tally_count(&t, numbers[seed][0][i], numbers[seed][1][i], reference, (double)given->rays);
     }
     if (result == AUR_OK) {
         lab_tally_report(run, given->name, 0.0, &t);

@@ -17,7 +17,7 @@ typedef struct coverage_case {
     double positions[SENSORS][3], normals[SENSORS][3];
     double asked;
     /* The reference at a sensor; NULL: the mean over all runs of fixed size. */
-    double (*truth)(const double position[3]);
+    double (*reference)(const double position[3]);
 } coverage_case;
 
 /* A closed room whose walls emit 1 and reflect half. */
@@ -41,7 +41,7 @@ static double screened(const double position[3]) {
 }
 
 /* A sky of radiance 1 above a practically infinite black wall of height 1 in the plane x = 0. */
-static double beside_wall(const double position[3]) {
+static double next_to_wall(const double position[3]) {
     return 0.5 * PI * (1.0 + position[0] / hypot(position[0], 1.0));
 }
 
@@ -70,7 +70,7 @@ static const coverage_case cases[] = {
      {{0.2, 0, 0}, {1, 0, 0}, {3, 0, 0}},
      {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
      0.005,
-     beside_wall},
+     next_to_wall},
     {"cornell-box",
      NULL,
      {{278, 10, 280}, {100, 400, 200}, {278, 540, 280}},
@@ -103,18 +103,18 @@ static aur_result study(lab_run *run, const aur_scene *scene, const coverage_cas
     aur_result result = AUR_OK;
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
         result = estimate(run, scene, given, i < seeds ? 0.0 : given->asked, i % seeds, results[i], error);
-    double truth[SENSORS] = {0};
+    double reference[SENSORS] = {0};
     for (size_t s = 0; s < SENSORS && result == AUR_OK; ++s) {
-        if (given->truth != NULL)
-            truth[s] = given->truth(given->positions[s]);
-        for (size_t i = 0; i < seeds && given->truth == NULL; ++i)
-            truth[s] += results[i][s].value[AUR_IRRADIANCE_TOTAL][3] / (double)seeds;
+        if (given->reference != NULL)
+            reference[s] = given->reference(given->positions[s]);
+        for (size_t i = 0; i < seeds && given->reference == NULL; ++i)
+            reference[s] += results[i][s].value[AUR_IRRADIANCE_TOTAL][3] / (double)seeds;
     }
     for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
         lab_tally t = {0};
         for (size_t i = 0; i < seeds * SENSORS; ++i) {
             const aur_irradiance *const r = &results[kind * seeds + i / SENSORS][i % SENSORS];
-            lab_tally_count(&t, r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], truth[i % SENSORS],
+            lab_tally_count(&t, r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], reference[i % SENSORS],
                             (double)r->directions);
         }
         lab_tally_report(run, given->name, kind == 0 ? 0.0 : given->asked, &t);
@@ -139,7 +139,7 @@ static aur_result moments(void *user, const aur_estimate_points *points, double 
 }
 
 static aur_result study_functional(lab_run *run, lab_tally pooled[2], aur_error *error) {
-    const double truth = 1.0 / 3.0 + 0.15; /* E|u - v| = 1/3, E .3 u = .15 */
+    const double reference = 1.0 / 3.0 + 0.15; /* E|u - v| = 1/3, E .3 u = .15 */
     const size_t seeds = lab_run_options(run)->quick ? 500 : 3000;
     for (size_t kind = 0; kind < 2; ++kind) {
         lab_tally t = {0};
@@ -154,7 +154,7 @@ static aur_result study_functional(lab_run *run, lab_tally pooled[2], aur_error 
             const aur_result result = aur_estimate(moments, NULL, &options, found, &how, error);
             if (result != AUR_OK)
                 return result;
-            lab_tally_count(&t, found[0].value, found[0].half_width, truth, (double)how.evaluations);
+            lab_tally_count(&t, found[0].value, found[0].half_width, reference, (double)how.evaluations);
         }
         lab_tally_report(run, "functional", kind == 0 ? 0.0 : 0.005, &t);
         lab_tally_add(&pooled[kind], &t);

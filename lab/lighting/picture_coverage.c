@@ -56,10 +56,10 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
 /* The image's root mean square error, relative to its mean. Counted as covered if it is within the interval,
  * and if it is below the interval's upper end, which is the stopping criterion of a render to a target error.
  */
-static void count_picture(const picture *made, const float *truth, lab_tally t[2]) {
+static void count_image(const picture *made, const float *reference, lab_tally t[2]) {
     double squares = 0.0;
     for (size_t i = 0; i < VALUES; ++i) {
-        const double off = (double)made->values[i] - (double)truth[i];
+        const double off = (double)made->values[i] - (double)reference[i];
         squares += off * off / VALUES;
     }
     const double error = sqrt(squares) / made->mean;
@@ -68,7 +68,7 @@ static void count_picture(const picture *made, const float *truth, lab_tally t[2
     lab_tally_count(&t[1], 0.5 * made->high, 0.5 * made->high, error, made->samples);
 }
 
-static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *error) {
+static aur_result study_images(lab_run *run, lab_tally *pooled, aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 40 : 1000;
     static const double asked[2] = {0.0, 0.08};
     aur_scene *scene = NULL;
@@ -82,7 +82,7 @@ static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *err
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
         result = render(run, renderer, asked[i / seeds], i, &made[i], error);
     /* The reference is the mean over all runs; all runs have different seeds. */
-    float truth[VALUES];
+    float reference[VALUES];
     double weight = 0.0;
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
         weight += made[i].samples;
@@ -90,12 +90,12 @@ static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *err
         double sum = 0.0;
         for (size_t i = 0; i < 2 * seeds; ++i)
             sum += made[i].samples / weight * (double)made[i].values[k];
-        truth[k] = (float)sum;
+        reference[k] = (float)sum;
     }
     for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
         lab_tally t[2] = {{0}, {0}};
         for (size_t i = 0; i < seeds; ++i)
-            count_picture(&made[kind * seeds + i], truth, t);
+            count_image(&made[kind * seeds + i], reference, t);
         lab_tally_report(run, "image's error", asked[kind], &t[0]);
         lab_tally_report(run, "image's error below the end", asked[kind], &t[1]);
         lab_tally_add(pooled, &t[0]);
@@ -113,7 +113,7 @@ static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *erro
     const size_t seeds = lab_run_options(run)->quick ? 200 : 1000;
     double *const values = malloc(seeds * RUNS * sizeof *values);
     aur_result result = values != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    double truth = 0.0;
+    double reference = 0.0;
     for (size_t i = 0; i < seeds * RUNS && result == AUR_OK; ++i) {
         double points[2 * POINTS];
         aur_pointset_options options = {.size = sizeof options};
@@ -129,13 +129,13 @@ static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *erro
         if (result == AUR_OK)
             result = aur_measure("l2-star", &view, NULL, &values[i], error);
         if (result == AUR_OK)
-            truth += values[i] / (double)(seeds * RUNS);
+            reference += values[i] / (double)(seeds * RUNS);
     }
     lab_tally t = {0};
     for (size_t i = 0; i < seeds && result == AUR_OK; ++i) {
         double mean, half;
         lab_mean_interval(RUNS, values + RUNS * i, &mean, &half);
-        lab_tally_count(&t, mean, half, truth, POINTS);
+        lab_tally_count(&t, mean, half, reference, POINTS);
     }
     if (result == AUR_OK) {
         lab_tally_report(run, "discrepancy of scrambled nets", 0.0, &t);
@@ -147,7 +147,7 @@ static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *erro
 
 static aur_result run(lab_run *run, aur_error *error) {
     lab_tally pooled = {0};
-    aur_result result = study_pictures(run, &pooled, error);
+    aur_result result = study_images(run, &pooled, error);
     if (result == AUR_OK)
         result = study_measure(run, &pooled, error);
     if (result == AUR_OK)

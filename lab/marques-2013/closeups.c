@@ -37,7 +37,7 @@ typedef struct study {
     marques_pattern patterns[MARQUES_PATTERNS];
     marques_gathering form;
     aur_image *references[2], *pictures[MARQUES_PATTERNS];
-    size_t rivals, better; /* rows; rows in which spherical Fibonacci has the smaller mean error */
+    size_t others, better; /* rows; rows in which spherical Fibonacci has the smaller mean error */
 } study;
 
 static aur_result put(study *s, const char *name, const aur_image *image, aur_error *error) {
@@ -150,7 +150,7 @@ static void add_row(study *s, const marques_pattern *pattern, const double *squa
             (const char *const[]){s->scene->name, s->window->name, directions, pattern->set, pattern->label,
                                   NULL},
             6, (const double[]){rmse.value, rmse.low, rmse.high, ratio.value, ratio.low, ratio.high});
-    s->rivals += squares != base;
+    s->others += squares != base;
     s->better += squares != base && ratio.value > 1.0;
 }
 
@@ -211,7 +211,7 @@ static aur_result draw_whole(const study *s, aur_error *error) {
 }
 
 static aur_result study_scene(study *s, size_t shrink, aur_error *error) {
-    const size_t before = s->rivals, good = s->better;
+    const size_t before = s->others, good = s->better;
     const size_t side = SIDE / shrink;
     s->form.diffuse = s->of->diffuse / shrink;
     s->form.glossy = s->of->glossy / shrink;
@@ -225,9 +225,9 @@ static aur_result study_scene(study *s, size_t shrink, aur_error *error) {
         result = study_window(s, error);
     }
     if (result == AUR_OK)
-        lab_claim(s->run, s->better - good == s->rivals - before,
+        lab_claim(s->run, s->better - good == s->others - before,
                   "%s: spherical Fibonacci has the least error: less than in %zu of %zu", s->scene->name,
-                  s->better - good, s->rivals - before);
+                  s->better - good, s->others - before);
     return result;
 }
 

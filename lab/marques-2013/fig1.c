@@ -9,7 +9,7 @@
 
 #include "gathering.h"
 
-enum { COUNTS = 3, MOST_SEEDS = 24, RIVALS = 2, QUANTITIES = 2, SHOWN = 256, WIDTH = 64, HEIGHT = 48 };
+enum { COUNTS = 3, MOST_SEEDS = 24, OTHERS = 2, QUANTITIES = 2, SHOWN = 256, WIDTH = 64, HEIGHT = 48 };
 
 static const size_t counts[COUNTS] = {64, 128, 256};
 
@@ -100,14 +100,14 @@ static aur_result compare(study *s, const char *set, bool is_published, size_t d
 }
 
 static aur_result study_counts(study *s, aur_error *error) {
-    const char *const rivals[RIVALS] = {"larcher-pillichshammer", lab_run_options(s->run)->set};
+    const char *const others[OTHERS] = {"larcher-pillichshammer", lab_run_options(s->run)->set};
     aur_result result = AUR_OK;
     for (size_t n = 0; n < COUNTS && result == AUR_OK; ++n) {
         double base[QUANTITIES * MOST_SEEDS];
         result = measure(s, "spherical-fibonacci", counts[n], base, error);
-        for (size_t i = 0; i < RIVALS && rivals[i] != NULL && result == AUR_OK; ++i)
+        for (size_t i = 0; i < OTHERS && others[i] != NULL && result == AUR_OK; ++i)
             result =
-                lab_forgive(s->run, rivals[i], compare(s, rivals[i], i == 0, counts[n], base, error), error);
+                lab_forgive(s->run, others[i], compare(s, others[i], i == 0, counts[n], base, error), error);
     }
     for (size_t i = 0; i < 2; ++i)
         aur_image_destroy(s->references[i]);

@@ -111,16 +111,16 @@ static void judge(const sheet *s) {
         }
     }
     const view *const fibonacci = find(s, "spherical-fibonacci", "-");
-    size_t behind = 0, rivals = 0;
+    size_t behind = 0, others = 0;
     for (size_t i = 0; i < s->view_count; ++i)
         if (strcmp(s->views[i].projection, "square") != 0 && &s->views[i] != fibonacci) {
-            ++rivals;
+            ++others;
             behind += s->views[i].least < fibonacci->least && s->views[i].spread > fibonacci->spread;
         }
-    lab_claim(s->run, behind == rivals,
+    lab_claim(s->run, behind == others,
               "spherical Fibonacci points are the most uniform on the hemisphere: %zu of %zu others have a "
               "smaller least distance and a wider spread",
-              behind, rivals);
+              behind, others);
 }
 
 static const char *const columns[] = {"set", "projection", "n", "least", "mean", "spread", NULL};

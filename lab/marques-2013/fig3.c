@@ -24,7 +24,7 @@ typedef struct study {
     aur_domain domain;
     size_t size_count, seeds;
     curve base; /* of spherical Fibonacci */
-    size_t rivals, above, closer;
+    size_t others, above, closer;
 } study;
 
 static aur_result measure(const study *s, const marques_pattern *pattern, size_t count, uint64_t seed,
@@ -72,7 +72,7 @@ static aur_result add_curve(study *s, const marques_pattern *pattern, aur_error 
     }
     const bool is_base = strcmp(pattern->set, "spherical-fibonacci") == 0;
     for (size_t k = 0; k < s->size_count && !is_base; ++k) {
-        ++s->rivals;
+        ++s->others;
         s->above += c.values[0][k] > s->base.values[0][k];
         s->closer += c.values[1][k] < s->base.values[1][k];
     }
@@ -96,18 +96,18 @@ static aur_result add_curve(study *s, const marques_pattern *pattern, aur_error 
 static aur_result study_domain(study *s, aur_error *error) {
     marques_pattern patterns[MARQUES_PATTERNS];
     const size_t count = marques_patterns(s->run, patterns);
-    s->rivals = s->above = s->closer = 0;
+    s->others = s->above = s->closer = 0;
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         result = lab_forgive(s->run, patterns[i].set, add_curve(s, &patterns[i], error), error);
     if (result != AUR_OK)
         return result;
-    lab_claim(s->run, s->above == s->rivals,
+    lab_claim(s->run, s->above == s->others,
               "%s: spherical Fibonacci points have the lowest energy: lower than in %zu of %zu",
-              aur_domain_name(s->domain), s->above, s->rivals);
-    lab_claim(s->run, s->closer == s->rivals,
+              aur_domain_name(s->domain), s->above, s->others);
+    lab_claim(s->run, s->closer == s->others,
               "%s: their smallest distance is the largest: larger than in %zu of %zu",
-              aur_domain_name(s->domain), s->closer, s->rivals);
+              aur_domain_name(s->domain), s->closer, s->others);
     return AUR_OK;
 }
 

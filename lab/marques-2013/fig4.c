@@ -31,7 +31,7 @@ typedef struct study {
     marques_gathering form;
     aur_image *references[2]; /* NULL: not rendered yet */
     line base;                /* of spherical Fibonacci */
-    size_t rivals, beaten;    /* lines times counts; those in which a competing set is better beyond its
+    size_t others, beaten;    /* lines times counts; those in which a competing set is better beyond its
                                * interval */
     size_t lines, steeper;    /* lines; those with a steeper slope than spherical Fibonacci's beyond intervals
                                */
@@ -62,13 +62,13 @@ static aur_result measure(study *s, const marques_pattern *pattern, size_t direc
     return result != AUR_OK ? result : lab_keep(s->run, key, s->seeds, squares, error);
 }
 
-static void compare(study *s, const line *rival) {
+static void compare(study *s, const line *other) {
     for (size_t n = 0; n < s->size_count; ++n) {
-        ++s->rivals;
-        s->beaten += lab_root_ratio(s->seeds, rival->squares[n], s->seeds, s->base.squares[n]).high < 1.0;
+        ++s->others;
+        s->beaten += lab_root_ratio(s->seeds, other->squares[n], s->seeds, s->base.squares[n]).high < 1.0;
     }
     ++s->lines;
-    s->steeper += rival->slope.high < s->base.slope.low;
+    s->steeper += other->slope.high < s->base.slope.low;
 }
 
 static aur_result add_line(study *s, const marques_pattern *pattern, aur_error *error) {
@@ -173,10 +173,10 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (result != AUR_OK)
         return result;
     lab_claim(
-        run, s.beaten <= by_probability(s.rivals),
+        run, s.beaten <= by_probability(s.others),
         "spherical Fibonacci is never outperformed: another set is better beyond its interval in %zu of "
         "%zu, up to %zu expected by chance",
-        s.beaten, s.rivals, by_probability(s.rivals));
+        s.beaten, s.others, by_probability(s.others));
     lab_claim(run, s.steeper <= by_probability(s.lines),
               "its slope is as good as or better than the others': %zu of %zu fall faster beyond the "
               "intervals, up to %zu expected by chance",

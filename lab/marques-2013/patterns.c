@@ -1,7 +1,7 @@
 #include "patterns.h"
 
 size_t marques_patterns(const lab_run *run, marques_pattern patterns[MARQUES_PATTERNS]) {
-    static const marques_pattern rivals[] = {
+    static const marques_pattern others[] = {
         {"larcher-pillichshammer", "lambert", AUR_MAP_LAMBERT, AUR_SCRAMBLE_DIGIT},
         {"bnot", "lambert", AUR_MAP_LAMBERT, AUR_SCRAMBLE_ROTATE},
         {"sobol", "lambert", AUR_MAP_LAMBERT, AUR_SCRAMBLE_DIGIT},
@@ -10,8 +10,8 @@ size_t marques_patterns(const lab_run *run, marques_pattern patterns[MARQUES_PAT
     size_t count = 0;
     patterns[count++] = (marques_pattern){"spherical-fibonacci", "-", AUR_MAP_LAMBERT, AUR_SCRAMBLE_ROTATE};
     for (aur_map map = AUR_MAP_LAMBERT; map <= AUR_MAP_CONCENTRIC; ++map) {
-        for (size_t i = 0; i < sizeof rivals / sizeof rivals[0]; ++i) {
-            patterns[count] = rivals[i];
+        for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+            patterns[count] = others[i];
             patterns[count].map = map;
             patterns[count++].label = aur_map_name(map);
         }

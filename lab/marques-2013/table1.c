@@ -11,17 +11,17 @@
 
 #include "program/lab/lab.h"
 
-enum { DIRECTIONS = 512, MORE_DIRECTIONS = 768, SCENES = 3, RIVALS = 3, BATCH = 8, MOST_SCRAMBLES = 96 };
+enum { DIRECTIONS = 512, MORE_DIRECTIONS = 768, SCENES = 3, OTHERS = 3, BATCH = 8, MOST_SCRAMBLES = 96 };
 
 /* Relative half widths of mean square errors: base and other set together give +- 1 % for a ratio of RMSEs.
  */
-static const double base_half = 0.010, rival_half = 0.017, slope_half = 0.04;
+static const double base_half = 0.010, other_half = 0.017, slope_half = 0.04;
 
 typedef struct table_scene {
     const char *name;
     const char *file, *quick_file; /* the latter needs no generated meshes; NULL: omitted in the quick form */
     size_t width, height;
-    double published[2][2][RIVALS][2]; /* glossy, diffuse; lambert, concentric; set: percent of RMSE above
+    double published[2][2][OTHERS][2]; /* glossy, diffuse; lambert, concentric; set: percent of RMSE above
                                         * spherical Fibonacci's, rays needed */
 } table_scene;
 
@@ -48,7 +48,7 @@ static const table_scene scenes[SCENES] = {
      {{{{2.2, 528}, {2.5, 526}, {0.6, 514}}, {{2.1, 531}, {1.2, 520}, {1.1, 518}}},
       {{{14.7, 634}, {7.3, 569}, {3.5, 535}}, {{12.2, 607}, {6.4, 559}, {4.4, 544}}}}}};
 
-static const char *const rivals[RIVALS] = {"sobol", "bnot", "larcher-pillichshammer"};
+static const char *const others[OTHERS] = {"sobol", "bnot", "larcher-pillichshammer"};
 static const char *const components[2] = {"glossy", "diffuse"};
 static const char *const maps[2] = {"lambert", "concentric"};
 static const char *const columns[] = {
@@ -100,7 +100,7 @@ static aur_result need_references(table_study *study, aur_error *error) {
 
 /* The mean square error over as many independent randomisations as a narrow interval requires. */
 static aur_result measure(table_study *study, const char *set, const char *map, size_t directions,
-                          double wanted_half, table_cell *cell, aur_error *error) {
+                          double target_half, table_cell *cell, aur_error *error) {
     double mse[MOST_SCRAMBLES], half, values[2];
     char key[200];
     snprintf(key, sizeof key, "%s %s %.80s %s %zu", study->scene->name, study->component, set, map,
@@ -123,7 +123,7 @@ static aur_result measure(table_study *study, const char *set, const char *map, 
             continue;
         lab_mean_interval(k + 1, mse, &cell->mean, &half);
         cell->relative_half = half / cell->mean;
-        if (cell->relative_half <= wanted_half)
+        if (cell->relative_half <= target_half)
             break;
     }
     if (result != AUR_OK)
@@ -142,37 +142,37 @@ static double rays_needed(const table_study *study, double at_directions, double
     return (double)study->directions * pow(base / at_directions, 1.0 / slope);
 }
 
-static const char *candidate_at(const table_study *study, size_t rival) {
-    return rival < RIVALS ? rivals[rival] : lab_run_options(study->run)->set;
+static const char *candidate_at(const table_study *study, size_t other) {
+    return other < OTHERS ? others[other] : lab_run_options(study->run)->set;
 }
 
 /* BNOT takes too long to generate for the quick form. */
-static bool wanted(const table_study *study, size_t component, size_t map, size_t rival) {
+static bool included(const table_study *study, size_t component, size_t map, size_t other) {
     char name[160];
     snprintf(name, sizeof name, "%s/%s/%s/%.80s", study->scene->name, components[component], maps[map],
-             candidate_at(study, rival));
-    return lab_wants(study->run, name) && !(study->quick && rival == 1);
+             candidate_at(study, other));
+    return lab_wants(study->run, name) && !(study->quick && other == 1);
 }
 
-static bool any_wanted(const table_study *study, size_t component, size_t count) {
+static bool any_included(const table_study *study, size_t component, size_t count) {
     for (size_t k = 0; k < 2 * count; ++k)
-        if (wanted(study, component, k / count, k % count))
+        if (included(study, component, k / count, k % count))
             return true;
     return false;
 }
 
-static aur_result add_rival(table_study *study, size_t component, size_t map, size_t rival, table_cell base,
+static aur_result add_other(table_study *study, size_t component, size_t map, size_t other, table_cell base,
                             aur_error *error) {
-    const char *const set = candidate_at(study, rival);
+    const char *const set = candidate_at(study, other);
     table_cell cell, more;
-    aur_result result = measure(study, set, maps[map], study->directions, rival_half, &cell, error);
+    aur_result result = measure(study, set, maps[map], study->directions, other_half, &cell, error);
     if (result == AUR_OK)
         result = measure(study, set, maps[map], study->more_directions, slope_half, &more, error);
     if (result != AUR_OK)
         return result;
     const double half = hypot(cell.relative_half, base.relative_half), ratio = cell.mean / base.mean;
     const double *const published =
-        rival < RIVALS ? study->scene->published[component][map][rival] : (const double[]){NAN, NAN};
+        other < OTHERS ? study->scene->published[component][map][other] : (const double[]){NAN, NAN};
     lab_row(study->run, (const char *const[]){study->scene->name, study->component, maps[map], set, NULL}, 7,
             (const double[]){root(cell.mean), root(ratio), root(ratio * (1.0 - half)),
                              root(ratio * (1.0 + half)), rays_needed(study, cell.mean, more.mean, base.mean),
@@ -184,8 +184,8 @@ static aur_result add_rival(table_study *study, size_t component, size_t map, si
 }
 
 static aur_result study_component(table_study *study, size_t component, aur_error *error) {
-    const size_t count = lab_run_options(study->run)->set != NULL ? RIVALS + 1 : RIVALS;
-    if (!any_wanted(study, component, count))
+    const size_t count = lab_run_options(study->run)->set != NULL ? OTHERS + 1 : OTHERS;
+    if (!any_included(study, component, count))
         return AUR_OK;
     study->component = components[component];
     table_cell base;
@@ -193,10 +193,10 @@ static aur_result study_component(table_study *study, size_t component, aur_erro
         measure(study, "spherical-fibonacci", "lambert", study->directions, base_half, &base, error);
     if (result == AUR_OK)
         for (size_t map = 0; map < 2 && result == AUR_OK; ++map)
-            for (size_t rival = 0; rival < count && result == AUR_OK; ++rival)
-                if (wanted(study, component, map, rival))
-                    result = lab_forgive(study->run, candidate_at(study, rival),
-                                         add_rival(study, component, map, rival, base, error), error);
+            for (size_t other = 0; other < count && result == AUR_OK; ++other)
+                if (included(study, component, map, other))
+                    result = lab_forgive(study->run, candidate_at(study, other),
+                                         add_other(study, component, map, other, base, error), error);
     for (size_t i = 0; i < 2; ++i) {
         aur_image_destroy(study->references[i]);
         study->references[i] = NULL;

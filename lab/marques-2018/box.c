@@ -47,7 +47,7 @@ typedef struct box {
 } box;
 
 static aur_result open_box(box *of, aur_error *error) {
-    static const char *const things[] = {"wall", "block", "glaze"};
+    static const char *const materials[] = {"wall", "block", "glaze"};
     char names[9][16], kd[48], ks[48], m[16];
     snprintf(kd, sizeof kd, "%.3f", 0.8 * (1.0 - of->share));
     snprintf(ks, sizeof ks, "%.3f", 0.8 * of->share);
@@ -56,7 +56,7 @@ static aur_result open_box(box *of, aur_error *error) {
     for (size_t i = 0; i < 3; ++i) {
         const char *const parts[] = {"kd", "ks", "m"}, *const values[] = {kd, ks, m};
         for (size_t p = 0; p < 3; ++p) {
-            snprintf(names[3 * i + p], sizeof names[0], "%s_%s", things[i], parts[p]);
+            snprintf(names[3 * i + p], sizeof names[0], "%s_%s", materials[i], parts[p]);
             definitions[3 * i + p] = (aur_definition){names[3 * i + p], values[p]};
         }
     }

@@ -12,7 +12,7 @@
 #include "control.h"
 #include "samples.h"
 
-enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 16384, ANGLES = 4 };
+enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, REFERENCE = 16384, ANGLES = 4 };
 
 typedef enum method {
     EQUAL,       /* each lobe from its own samples, 1/N */
@@ -62,7 +62,7 @@ typedef struct study {
     const char *set;
     double radians;
     aur_weight_table *table; /* of the set */
-    double *truth;           /* 6 * TRUTH: points of both lobes */
+    double *truth;           /* 6 * REFERENCE: points of both lobes */
 } study;
 
 /* The paper uses strong regularisation, and no constraint on the sum. */
@@ -136,7 +136,7 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
                                .xyz = r->xyz,
                                .strategies = {strategies[0], strategies[1]},
                                .lobe = k,
-                               .node_count = TRUTH,
+                               .node_count = REFERENCE,
                                .nodes = s->truth},
                 r->weights[k], error);
         else if (m == BALANCE || m == POWER)
@@ -182,23 +182,23 @@ static double estimate(const rule *r, const lab_light *light) {
 
 static double exact(const study *s, const lab_light *light) {
     double sum = 0.0;
-    for (size_t i = 0; i < 2 * TRUTH; ++i)
-        sum += lab_radiance(light, s->truth + 3 * i) / TRUTH;
+    for (size_t i = 0; i < 2 * REFERENCE; ++i)
+        sum += lab_radiance(light, s->truth + 3 * i) / REFERENCE;
     return sum;
 }
 
 /* If the light is in regression's function space, only rounding errors remain. */
 static aur_result claim_exact(const study *s, aur_error *error) {
     rule r;
-    double found[2] = {0.0}, wanted[2] = {0.0}, off = 0.0;
+    double found[2] = {0.0}, expected[2] = {0.0}, off = 0.0;
     const aur_result result = make_rule(s, SQUARES, 1, &r, error);
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
         for (size_t i = 0; i < ALL; ++i)
             found[k] += r.weights[k][i] * (r.xyz[3 * i] * r.xyz[3 * i + 2] + 0.5);
-        for (size_t i = k * TRUTH; i < (k + 1) * TRUTH; ++i)
+        for (size_t i = k * REFERENCE; i < (k + 1) * REFERENCE; ++i)
             if (s->truth[3 * i + 2] >= 0.0)
-                wanted[k] += (s->truth[3 * i] * s->truth[3 * i + 2] + 0.5) / TRUTH;
-        off = fmax(off, fabs(found[k] / wanted[k] - 1.0));
+                expected[k] += (s->truth[3 * i] * s->truth[3 * i + 2] + 0.5) / REFERENCE;
+        off = fmax(off, fabs(found[k] / expected[k] - 1.0));
     }
     if (result == AUR_OK)
         lab_claim(s->run, off < 1e-7, "%s: regression of degree 2 is exact for light x z + 1/2 (off by %.0e)",
@@ -210,11 +210,11 @@ static aur_result compare(study *s, double degrees, bool hard, aur_error *error)
     const uint64_t lights = lab_run_options(s->run)->quick ? 16 : 120;
     s->radians = degrees * 3.14159265358979323846 / 180.0;
     aur_result result =
-        lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 1.0, 0, 0}, s->truth, NULL, error);
+        lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 1.0, 0, 0}, s->truth, NULL, error);
     if (result == AUR_OK)
-        result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 20.0, 0, 0}, s->truth + 3 * TRUTH,
-                          NULL, error);
-    for (size_t i = TRUTH; i < 2 * TRUTH; ++i) {
+        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 20.0, 0, 0},
+                          s->truth + 3 * REFERENCE, NULL, error);
+    for (size_t i = REFERENCE; i < 2 * REFERENCE; ++i) {
         const double x = s->truth[3 * i], z = s->truth[3 * i + 2];
         s->truth[3 * i] = cos(s->radians) * x - sin(s->radians) * z;
         s->truth[3 * i + 2] = sin(s->radians) * x + cos(s->radians) * z;
@@ -272,7 +272,7 @@ static aur_result study_set(study *s, aur_error *error) {
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    study s = {.run = run, .truth = malloc(6 * TRUTH * sizeof *s.truth)};
+    study s = {.run = run, .truth = malloc(6 * REFERENCE * sizeof *s.truth)};
     if (s.truth == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = AUR_OK;

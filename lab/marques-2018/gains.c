@@ -52,9 +52,9 @@ static aur_result measure(const char *set, uint64_t seed, const aur_potential *c
         equal[i] = i < DIFFUSE ? 1.0 / DIFFUSE : 1.0 / GLOSSY;
         weights[i] += weights[ALL + i];
     }
-    const double *const rivals[] = {weights, apart, equal};
+    const double *const others[] = {weights, apart, equal};
     for (size_t i = 0; i < 3 && result == AUR_OK; ++i)
-        result = joint_error(xyz, rivals[i], potentials, cross, &joint[i], error);
+        result = joint_error(xyz, others[i], potentials, cross, &joint[i], error);
     if (result != AUR_OK)
         return result;
     const double merged = all[0].optimal_error + all[1].optimal_error;

@@ -7,7 +7,7 @@
 
 #include "samples.h"
 
-enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 8192, TURNS = 16 };
+enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, REFERENCE = 8192, TURNS = 16 };
 
 typedef enum rule {
     SHIFTED,  /* heights shifted modulo 1, weights p/q: the renderer's method */
@@ -44,7 +44,7 @@ typedef struct study {
     aur_oswa *pair;           /* a cosine lobe and this one */
     aur_potential *potential; /* of the lobe */
     aur_potential *cosine;
-    double *truth; /* 6 * TRUTH directions, and TRUTH masses of the GGX lobe's directions */
+    double *truth; /* 6 * REFERENCE directions, and REFERENCE masses of the GGX lobe's directions */
 } study;
 
 static uint64_t light_count(const study *s) {
@@ -151,11 +151,11 @@ static aur_result two_lobes(const study *s, rule which, uint64_t seed, samples *
 
 /* The integrals of the GGX lobe, and of both lobes. */
 static void exact(const study *s, const lab_light *light, double truths[2]) {
-    const double *const masses = s->truth + 6 * TRUTH;
+    const double *const masses = s->truth + 6 * REFERENCE;
     double glossy = 0.0, diffuse = 0.0;
-    for (size_t i = 0; i < TRUTH; ++i) {
+    for (size_t i = 0; i < REFERENCE; ++i) {
         glossy += masses[i] * lab_radiance(light, s->truth + 3 * i);
-        diffuse += lab_radiance(light, s->truth + 3 * (TRUTH + i)) / TRUTH;
+        diffuse += lab_radiance(light, s->truth + 3 * (REFERENCE + i)) / REFERENCE;
     }
     truths[0] = glossy;
     truths[1] = glossy + diffuse;
@@ -214,12 +214,12 @@ static aur_result compare(study *s, double alpha, double degrees, aur_error *err
         result = aur_oswa_create(&two, &s->pair, error);
     if (result == AUR_OK) {
         s->mass = aur_potential_mass(s->potential);
-        result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 0.0, 0, 0}, s->truth, NULL, error);
+        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 0.0, 0, 0}, s->truth, NULL, error);
     }
     if (result == AUR_OK)
-        aur_lobe_warp(&s->lobe, TRUTH, s->truth, s->truth);
-    for (size_t i = 0; i < TRUTH && result == AUR_OK; ++i)
-        s->truth[6 * TRUTH + i] = ratio(s, s->truth + 3 * i) / TRUTH;
+        aur_lobe_warp(&s->lobe, REFERENCE, s->truth, s->truth);
+    for (size_t i = 0; i < REFERENCE && result == AUR_OK; ++i)
+        s->truth[6 * REFERENCE + i] = ratio(s, s->truth + 3 * i) / REFERENCE;
     if (result == AUR_OK)
         result = try_rules(s, squares, worst, error);
     for (int hard = 0; hard < 2 && result == AUR_OK; ++hard)
@@ -271,13 +271,13 @@ static aur_result study_set(study *s, aur_error *error) {
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    study s = {.run = run, .truth = malloc(7 * TRUTH * sizeof *s.truth)};
+    study s = {.run = run, .truth = malloc(7 * REFERENCE * sizeof *s.truth)};
     if (s.truth == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = lab_lobe_potential(1.0, 1.5, &s.cosine, error);
     if (result == AUR_OK)
-        result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 1.0, 0, 0}, s.truth + 3 * TRUTH, NULL,
-                          error);
+        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 1.0, 0, 0},
+                          s.truth + 3 * REFERENCE, NULL, error);
     const char *const sets[] = {"spherical-fibonacci", options->quick ? NULL : "sobol",
                                 options->quick ? NULL : "random", options->set};
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {

@@ -16,7 +16,7 @@
 
 #include "samples.h"
 
-enum { MOST = 64, TRUTH = 16384, LIGHTS = 400, KINDS = 6 };
+enum { MOST = 64, REFERENCE = 16384, LIGHTS = 400, KINDS = 6 };
 
 static const double SMOOTHNESS = 1.5;
 
@@ -37,7 +37,7 @@ typedef struct joint_study {
     double exponent;
     size_t count, steps;
     const aur_potential *lobe;
-    double truth[3 * TRUTH]; /* points of the lobe */
+    double truth[3 * REFERENCE]; /* points of the lobe */
 } joint_study;
 
 typedef struct joint_rule {
@@ -124,27 +124,27 @@ static aur_result descend(const joint_study *of, bool optimal, joint_rule *rule,
     aur_result result = weigh(of, optimal, rule, error);
     find_gradient(of, rule, gradient);
     for (size_t n = 0; n < of->steps && result == AUR_OK; ++n) {
-        joint_rule trial = *rule;
+        joint_rule candidate = *rule;
         for (size_t halvings = 0; halvings < 30; ++halvings, step *= 0.5) {
             for (size_t i = 0; i < numbers; ++i)
-                trial.xyz[i] = rule->xyz[i] - step * gradient[i];
+                candidate.xyz[i] = rule->xyz[i] - step * gradient[i];
             for (size_t i = 0; i < of->count; ++i)
-                put_back(trial.xyz + 3 * i);
-            result = weigh(of, optimal, &trial, error);
-            if (result != AUR_OK || trial.wce < rule->wce)
+                put_back(candidate.xyz + 3 * i);
+            result = weigh(of, optimal, &candidate, error);
+            if (result != AUR_OK || candidate.wce < rule->wce)
                 break;
         }
-        if (result != AUR_OK || !(trial.wce < rule->wce))
+        if (result != AUR_OK || !(candidate.wce < rule->wce))
             break;
-        find_gradient(of, &trial, after);
+        find_gradient(of, &candidate, after);
         for (size_t i = 0; i < numbers; ++i) {
-            moved[i] = trial.xyz[i] - rule->xyz[i];
+            moved[i] = candidate.xyz[i] - rule->xyz[i];
             changed[i] = after[i] - gradient[i];
         }
         const double along = dot(numbers, moved, changed);
         step = along > 0.0 ? dot(numbers, moved, moved) / along : 2.0 * step;
         memcpy(gradient, after, sizeof gradient);
-        *rule = trial;
+        *rule = candidate;
     }
     return result;
 }
@@ -173,8 +173,8 @@ static double judge(const joint_study *of, const joint_rule *rule, bool hard) {
         const lab_light light = lab_random_light(seed, hard);
         const double turn = 2.399963229728653 * (double)seed, c = cos(turn), s = sin(turn);
         double exact = 0.0, found = 0.0;
-        for (size_t i = 0; i < TRUTH; ++i)
-            exact += lab_radiance(&light, of->truth + 3 * i) / TRUTH;
+        for (size_t i = 0; i < REFERENCE; ++i)
+            exact += lab_radiance(&light, of->truth + 3 * i) / REFERENCE;
         for (size_t i = 0; i < of->count; ++i) {
             const double *const u = rule->xyz + 3 * i;
             found += rule->weights[i] *
@@ -239,8 +239,8 @@ static aur_result run(lab_run *run, aur_error *error) {
         result = lab_lobe_potential(of.exponent, SMOOTHNESS, &lobe, error);
         of.lobe = lobe;
         if (result == AUR_OK)
-            result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, of.exponent, 0, 0}, of.truth, NULL,
-                              error);
+            result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, of.exponent, 0, 0}, of.truth,
+                              NULL, error);
         for (size_t n = 0; n < (quick ? 1 : 3) && result == AUR_OK; ++n) {
             of.count = counts[n];
             result = study_size(&of, error);

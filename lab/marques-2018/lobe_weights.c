@@ -106,15 +106,16 @@ aur_result lab_lobes_weigh(const lab_lobes *of, lab_lobe_method how, const doubl
     return result;
 }
 
-static aur_result find_truth(const lab_lobes *of, aur_error *error) {
+static aur_result find_reference(const lab_lobes *of, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < of->count && result == AUR_OK; ++k) {
-        double *const xyz = of->truth + 4 * LAB_LOBE_TRUTH * k, *const weights = xyz + 3 * LAB_LOBE_TRUTH;
+        double *const xyz = of->truth + 4 * LAB_LOBE_REFERENCE * k, *const weights =
+                                                                        xyz + 3 * LAB_LOBE_REFERENCE;
         double sum = 0.0;
-        result = draw(of, k, "spherical-fibonacci", LAB_LOBE_TRUTH, LAB_LOBE_TRUTH, 0, xyz, error);
-        for (size_t i = 0; i < LAB_LOBE_TRUTH && result == AUR_OK; ++i)
+        result = draw(of, k, "spherical-fibonacci", LAB_LOBE_REFERENCE, LAB_LOBE_REFERENCE, 0, xyz, error);
+        for (size_t i = 0; i < LAB_LOBE_REFERENCE && result == AUR_OK; ++i)
             sum += weights[i] = ratio(of, k, xyz + 3 * i);
-        for (size_t i = 0; i < LAB_LOBE_TRUTH; ++i)
+        for (size_t i = 0; i < LAB_LOBE_REFERENCE; ++i)
             weights[i] /= sum;
     }
     return result;
@@ -123,16 +124,16 @@ static aur_result find_truth(const lab_lobes *of, aur_error *error) {
 double lab_lobes_integrate(const lab_lobes *of, const lab_light *light) {
     double sum = 0.0;
     for (size_t k = 0; k < of->count; ++k)
-        for (size_t i = 0; i < LAB_LOBE_TRUTH; ++i) {
-            const double *const lobe = of->truth + 4 * LAB_LOBE_TRUTH * k;
-            sum += lobe[3 * LAB_LOBE_TRUTH + i] * lab_radiance(light, lobe + 3 * i);
+        for (size_t i = 0; i < LAB_LOBE_REFERENCE; ++i) {
+            const double *const lobe = of->truth + 4 * LAB_LOBE_REFERENCE * k;
+            sum += lobe[3 * LAB_LOBE_REFERENCE + i] * lab_radiance(light, lobe + 3 * i);
         }
     return sum;
 }
 
 aur_result lab_lobes_open(lab_lobes *of, aur_error *error) {
     of->all = 0;
-    of->truth = malloc(4 * LAB_LOBE_TRUTH * LAB_MOST_LOBES * sizeof *of->truth);
+    of->truth = malloc(4 * LAB_LOBE_REFERENCE * LAB_MOST_LOBES * sizeof *of->truth);
     aur_result result = of->truth == NULL ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory") : AUR_OK;
     for (size_t k = 0; k < of->count && result == AUR_OK; ++k) {
         aur_lobe *const lobe = &of->lobes[k];
@@ -151,7 +152,7 @@ aur_result lab_lobes_open(lab_lobes *of, aur_error *error) {
         of->all += of->counts[k];
         result = aur_potential_create(&density, 1.5, &of->potentials[k], error);
     }
-    return result == AUR_OK ? find_truth(of, error) : result;
+    return result == AUR_OK ? find_reference(of, error) : result;
 }
 
 void lab_lobes_close(lab_lobes *of) {

@@ -6,7 +6,7 @@
 
 #include "samples.h"
 
-enum { LAB_MOST_LOBES = 4, LAB_MOST_SAMPLES = 64 + 32 + 16 + 16, LAB_LOBE_TRUTH = 8192 };
+enum { LAB_MOST_LOBES = 4, LAB_MOST_SAMPLES = 64 + 32 + 16 + 16, LAB_LOBE_REFERENCE = 8192 };
 
 typedef enum lab_lobe_method { LAB_PLAIN, LAB_MIS, LAB_OSW, LAB_OSWA, LAB_LOBE_METHODS } lab_lobe_method;
 
@@ -19,7 +19,7 @@ typedef struct lab_lobes {
     /* Set by lab_lobes_open: */
     size_t counts[LAB_MOST_LOBES], all; /* samples */
     aur_potential *potentials[LAB_MOST_LOBES];
-    double *truth; /* 4 * LAB_LOBE_TRUTH per lobe: directions, then weights */
+    double *truth; /* 4 * LAB_LOBE_REFERENCE per lobe: directions, then weights */
 } lab_lobes;
 
 #define LAB_COSINE(m_)                                                                                       \

@@ -26,19 +26,19 @@ aur_scramble lab_scrambling(const char *set) {
                                                           : AUR_SCRAMBLE_ROTATE;
 }
 
-aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error) {
+aur_result lab_draw(const lab_samples *requested, double *xyz, double *weights, aur_error *error) {
     aur_directions_options options = {.size = sizeof options,
-                                      .count = wanted->count,
+                                      .count = requested->count,
                                       .domain = AUR_DOMAIN_HEMISPHERE,
-                                      .lobe = {.exponent = wanted->exponent},
-                                      .optimal_density = wanted->optimal_density,
-                                      .scramble = lab_scrambling(wanted->set),
-                                      .seed = wanted->seed};
+                                      .lobe = {.exponent = requested->exponent},
+                                      .optimal_density = requested->optimal_density,
+                                      .scramble = lab_scrambling(requested->set),
+                                      .seed = requested->seed};
     aur_directions *directions;
-    aur_result result = aur_directions_create(wanted->set, &options, &directions, error);
+    aur_result result = aur_directions_create(requested->set, &options, &directions, error);
     if (result != AUR_OK)
         return result;
-    result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL);
+    result = aur_directions_points(directions, 0, requested->count, 3 * requested->count, xyz, weights, NULL);
     aur_directions_destroy(directions);
     return result;
 }

@@ -19,7 +19,7 @@ typedef struct lab_samples {
 aur_scramble lab_scrambling(const char *set);
 
 /* Directions into xyz[3 * count] and weights[count] (or NULL). */
-aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error);
+aur_result lab_draw(const lab_samples *requested, double *xyz, double *weights, aur_error *error);
 
 /* The potential of a cos^m lobe about +z. */
 aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential **potential,

@@ -18,12 +18,12 @@ static aur_result measure(const lab_samples *first, size_t seeds, const aur_pote
     double *const xyz = room, *const weights = room + 3 * LARGEST;
     double squares[2] = {0};
     for (uint64_t seed = 0; seed < seeds; ++seed) {
-        lab_samples wanted = *first;
-        wanted.seed = seed;
+        lab_samples requested = *first;
+        requested.seed = seed;
         aur_weights_report report;
-        aur_result result = lab_draw(&wanted, xyz, NULL, error);
+        aur_result result = lab_draw(&requested, xyz, NULL, error);
         if (result == AUR_OK)
-            result = aur_weights_solve(wanted.count, xyz, 1, &potential, &unconstrained, wanted.count,
+            result = aur_weights_solve(requested.count, xyz, 1, &potential, &unconstrained, requested.count,
                                        weights, &report, NULL, error);
         if (result != AUR_OK)
             return result;

@@ -63,14 +63,14 @@ static const subject subjects[] = {
      {64, 32},
      nothing}};
 
-typedef struct picture_study {
+typedef struct image_study {
     lab_run *run;
     const subject *subject;
     lab_gather gather;
     size_t scrambles;
     size_t set_count;
     const char *sets[MOST_SETS];
-} picture_study;
+} image_study;
 
 static const char *const columns[] = {"scene",    "set",       "directions",   "weights",   "rmse",
                                       "rmse_low", "rmse_high", "over_oswa",    "over_low",  "over_high",
@@ -85,7 +85,7 @@ static double published_ratio(const subject *of, const char *set, way which) {
 
 /* The RMSE of one method relative to that of OSWA: the ratio of two means over the same scramblings, with the
  * interval of its linearised form. */
-static void add_row(const picture_study *study, const char *set, way which, const double *mse,
+static void add_row(const image_study *study, const char *set, way which, const double *mse,
                     const double *base, double picture) {
     const lab_interval rmse = lab_root_mean(study->scrambles, mse);
     const lab_interval ratio = lab_root_ratio_paired(study->scrambles, mse, base);
@@ -101,7 +101,7 @@ static void add_row(const picture_study *study, const char *set, way which, cons
 }
 
 /* One scrambling; writes the image of the first. */
-static aur_result measure_one(picture_study *study, const char *set, way w, size_t scramble, double *both,
+static aur_result measure_one(image_study *study, const char *set, way w, size_t scramble, double *both,
                               double *all, aur_error *error) {
     aur_image *image = NULL;
     aur_result result = lab_gather_render(&study->gather, set, ways[w].keys, study->subject->directions,
@@ -123,7 +123,7 @@ static aur_result measure_one(picture_study *study, const char *set, way w, size
 
 /* Mean square errors over the pixels with both lobes, one per scrambling, and the average mean of the images.
  */
-static aur_result measure(picture_study *study, const char *set, way w, double *mse, double *picture,
+static aur_result measure(image_study *study, const char *set, way w, double *mse, double *picture,
                           aur_error *error) {
     double values[MOST_SCRAMBLES + 1] = {0.0};
     char key[200];
@@ -150,7 +150,7 @@ static aur_result measure(picture_study *study, const char *set, way w, double *
     return result;
 }
 
-static aur_result study_set(picture_study *study, const char *set, aur_error *error) {
+static aur_result study_set(image_study *study, const char *set, aur_error *error) {
     double mse[WAYS][MOST_SCRAMBLES], over[WAYS];
     for (size_t w = 0; w < WAYS; ++w) {
         double picture = 0.0;
@@ -167,7 +167,7 @@ static aur_result study_set(picture_study *study, const char *set, aur_error *er
     return AUR_OK;
 }
 
-static aur_result study_subject(picture_study *study, aur_error *error) {
+static aur_result study_subject(image_study *study, aur_error *error) {
     aur_result result =
         lab_gather_open(&study->gather, study->subject->file, study->subject->environment, error);
     const size_t sets = study->gather.stage.renderer != NULL ? study->set_count : 0;
@@ -179,14 +179,14 @@ static aur_result study_subject(picture_study *study, aur_error *error) {
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    picture_study study = {.run = run,
-                           .gather = {.run = run,
-                                      .side = options->quick ? 24 : 64,
-                                      .photons = options->quick ? 100000 : 2000000,
-                                      .reference_directions = options->quick ? 1024 : 4096},
-                           .scrambles = options->quick ? 3 : MOST_SCRAMBLES,
-                           .set_count = options->quick ? 1 : 3,
-                           .sets = {"random", "sobol", "spherical-fibonacci"}};
+    image_study study = {.run = run,
+                         .gather = {.run = run,
+                                    .side = options->quick ? 24 : 64,
+                                    .photons = options->quick ? 100000 : 2000000,
+                                    .reference_directions = options->quick ? 1024 : 4096},
+                         .scrambles = options->quick ? 3 : MOST_SCRAMBLES,
+                         .set_count = options->quick ? 1 : 3,
+                         .sets = {"random", "sobol", "spherical-fibonacci"}};
     if (options->set != NULL)
         study.sets[study.set_count++] = options->set;
     aur_result result = AUR_OK;

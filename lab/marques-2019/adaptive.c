@@ -31,9 +31,9 @@ static double published_mean(const adaptive_lobe *lobe) {
     return directions / places;
 }
 
-/* The threshold at which a gather takes `wanted` directions on average; the number decreases with the
+/* The threshold at which a gather takes `target` directions on average; the number decreases with the
  * threshold. */
-static aur_result find_threshold(adaptive_study *study, adaptive_way *way, double wanted, aur_error *error) {
+static aur_result find_threshold(adaptive_study *study, adaptive_way *way, double target, aur_error *error) {
     const size_t halvings = study->quick ? 6 : 11;
     char key[120];
     double low = log(1e-5), high = log(3.0);
@@ -49,7 +49,7 @@ static aur_result find_threshold(adaptive_study *study, adaptive_way *way, doubl
             return result;
         adaptive_count(study, way, image, &counts);
         aur_image_destroy(image);
-        *(counts.mean > wanted ? &low : &high) = log(way->threshold);
+        *(counts.mean > target ? &low : &high) = log(way->threshold);
     }
     way->threshold = exp(0.5 * (low + high));
     return lab_keep(study->run, key, 1, &way->threshold, error);
@@ -183,7 +183,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     adaptive_study study = {.run = run,
                             .quick = quick,
                             .side = quick ? 16 : 48,
-                            .picture_side = quick ? 0 : 128,
+                            .image_side = quick ? 0 : 128,
                             .photons = quick ? 20000 : 500000,
                             .references = quick ? 640 : 2560,
                             .seeds = quick ? 2 : 4};

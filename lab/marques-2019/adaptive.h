@@ -25,7 +25,7 @@ typedef struct adaptive_study {
     bool quick;
     lab_stage stage;
     const adaptive_lobe *lobe;
-    size_t side, picture_side, photons, references, seeds;
+    size_t side, image_side, photons, references, seeds;
     aur_image *truth[2];
     double fixed[ADAPTIVE_FIXED]; /* mean square errors of patterns of doubling constant size; 0: not measured
                                    * yet */

@@ -24,7 +24,7 @@ aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way,
         "equal,rotations="
         "0,photons=%zu,photons_per_texel=64,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu,%s",
         study->lobe->name, study->photons, first, first, seed, how);
-    const size_t side = picture ? study->picture_side : study->side;
+    const size_t side = picture ? study->image_side : study->side;
     return lab_render(
         study->run,
         &(lab_rendering){
@@ -59,7 +59,7 @@ const char *adaptive_pattern(const adaptive_way *way) {
     return way->pattern != NULL ? way->pattern : way->criterion != NULL ? "esfg" : "spherical-fibonacci";
 }
 
-static aur_result need_truth(adaptive_study *study, aur_error *error) {
+static aur_result need_reference(adaptive_study *study, aur_error *error) {
     static const char *const patterns[] = {"spherical-fibonacci", "sobol"};
     aur_result result = AUR_OK;
     for (size_t i = 0; i < 2 && study->truth[i] == NULL && result == AUR_OK; ++i) {
@@ -78,7 +78,7 @@ static aur_result measure(adaptive_study *study, const adaptive_way *way, adapti
              way->criterion != NULL ? way->criterion : "one size", way->factor, way->levels, way->threshold,
              adaptive_pattern(way));
     if (!lab_recall(study->run, key, 5 * study->seeds, values)) {
-        aur_result result = need_truth(study, error);
+        aur_result result = need_reference(study, error);
         for (size_t k = 0; k < study->seeds && result == AUR_OK; ++k) {
             aur_image *image = NULL, *colour = NULL;
             adaptive_counts counts;
@@ -187,7 +187,7 @@ aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, a
     char key[64];
     double drawn;
     snprintf(key, sizeof key, "pictures %s %s", study->lobe->name, way->criterion);
-    if (study->picture_side == 0 || lab_recall(study->run, key, 1, &drawn))
+    if (study->image_side == 0 || lab_recall(study->run, key, 1, &drawn))
         return AUR_OK;
     aur_result result = draw_one(study, way, way->criterion, false, error);
     const bool more = strcmp(way->criterion, "entropy") == 0; /* the others have one image */

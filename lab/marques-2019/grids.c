@@ -122,8 +122,8 @@ static aur_result add_row(lab_run *run, const shown *grid, const aur_points_view
 }
 
 /* The claims of the figures' captions. */
-static void judge(lab_run *run, const double uneven[GRIDS], bool all_kept) {
-    lab_claim(run, all_kept, "every size contains the points of the previous one");
+static void judge(lab_run *run, const double uneven[GRIDS], bool all_preserved) {
+    lab_claim(run, all_preserved, "every size contains the points of the previous one");
     const double doubled = uneven[1] / sqrt(uneven[0] * uneven[2]), whole = uneven[3] / uneven[4];
     lab_claim(
         run, doubled > 1.0 && doubled < 1.1,
@@ -141,7 +141,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     const shown mine[] = {{added, 64, "added"}, {added, 256, "added"}, {added, 1024, "added"}};
     aur_points *made[GRIDS] = {NULL};
     double uneven[GRIDS], unused;
-    bool all_kept = true;
+    bool all_preserved = true;
     aur_result result = AUR_OK;
     for (size_t g = 0; g < GRIDS && result == AUR_OK; ++g) {
         result = lab_points_make(
@@ -152,13 +152,13 @@ static aur_result run(lab_run *run, aur_error *error) {
         const bool extended = g > 0 && grids[g].set == grids[g - 1].set;
         const size_t same =
             extended ? store(aur_points_get_view(made[g]), aur_points_get_view(made[g - 1])) : 0;
-        all_kept = all_kept && (!extended || same == grids[g - 1].size);
+        all_preserved = all_preserved && (!extended || same == grids[g - 1].size);
         result = add_row(run, &grids[g], aur_points_get_view(made[g]), same, &uneven[g], error);
         if (result == AUR_OK)
             result = show(run, &grids[g], aur_points_get_view(made[g]), table, error);
     }
     if (result == AUR_OK)
-        judge(run, uneven, all_kept);
+        judge(run, uneven, all_preserved);
     for (size_t g = 0; g < GRIDS; ++g)
         aur_points_destroy(made[g]);
     for (size_t g = 0; g < 3 && added != NULL && result == AUR_OK; ++g) {

@@ -101,7 +101,7 @@ static void extend(size_t base, size_t levels, double *plane) {
 static aur_result check_extension(lab_run *run, aur_error *error) {
     enum { LEVELS = 2, MOST = 100 << (2 * LEVELS) };
     static const size_t bases[] = {20, 33, 64, 100};
-    double own[2 * MOST];
+    double expected[2 * MOST];
     lattice_check algorithm =
         lattice_begin("algorithm 1, fig. 7", "the points of E-SFG, each at its index", 0.0, 1e-13);
     lattice_check distance =
@@ -116,12 +116,12 @@ static aur_result check_extension(lab_run *run, aur_error *error) {
         const aur_result result = to_plane(set, size, &plane, error);
         if (result != AUR_OK)
             return result;
-        extend(base, LEVELS, own);
+        extend(base, LEVELS, expected);
         size_t shared = 0;
         for (size_t i = 0; i < size; ++i) {
-            lattice_count(
-                &algorithm, (double)base,
-                fmax(fabs(plane[2 * i] - own[2 * i]), fabs(wrapped(plane[2 * i + 1] - own[2 * i + 1]))));
+            lattice_count(&algorithm, (double)base,
+                          fmax(fabs(plane[2 * i] - expected[2 * i]),
+                               fabs(wrapped(plane[2 * i + 1] - expected[2 * i + 1]))));
             shared += fabs(plane[2 * i] - plane[0]) < 1e-12;
         }
         const double n = (double)base, first = sqrt(lattice_length2(lattice_shortest(n, 1.0), n, 1.0));

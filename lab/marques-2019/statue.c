@@ -22,7 +22,7 @@ typedef struct statue_study {
     lab_run *run;
     lab_stage stage;
     const char *light;
-    size_t width, height, picture_width, picture_height;
+    size_t width, height, image_width, image_height;
     size_t references, seeds, sizes, set_count;
     const char *sets[SETS];
     const char *lobes; /* the gathered component */
@@ -43,12 +43,12 @@ static aur_result render(const statue_study *study, const char *set, size_t diff
              study->light, study->lobes, set, diffuse, glossy, seed);
     const lab_rendering how = {.renderer = study->stage.renderer,
                                .integrator = integrator,
-                               .width = picture ? study->picture_width : study->width,
-                               .height = picture ? study->picture_height : study->height};
+                               .width = picture ? study->image_width : study->width,
+                               .height = picture ? study->image_height : study->height};
     return lab_render(study->run, &how, image, error);
 }
 
-static aur_result need_truth(statue_study *study, aur_error *error) {
+static aur_result need_reference(statue_study *study, aur_error *error) {
     const size_t n = study->references;
     if (study->truth[0] != NULL)
         return AUR_OK;
@@ -64,7 +64,7 @@ static aur_result measure(statue_study *study, const char *set, size_t diffuse, 
     snprintf(key, sizeof key, "%s %.160s %zu %zu", study->lobes, set, diffuse, glossy);
     if (lab_recall(study->run, key, study->seeds, mse))
         return AUR_OK;
-    aur_result result = need_truth(study, error);
+    aur_result result = need_reference(study, error);
     for (size_t k = 0; k < study->seeds && result == AUR_OK; ++k) {
         aur_image *image = NULL;
         result = render(study, set, diffuse, glossy, 1 + k, false, &image, error);
@@ -85,7 +85,7 @@ static double add_row(const statue_study *study, const char *figure, const char 
     return rmse.value;
 }
 
-static void release_truth(statue_study *study) {
+static void release_reference(statue_study *study) {
     for (size_t i = 0; i < 2; ++i) {
         aur_image_destroy(study->truth[i]);
         study->truth[i] = NULL;
@@ -106,7 +106,7 @@ static aur_result draw(const statue_study *study, const char *set, size_t diffus
 }
 
 /* Fig. 10: both lobes, 128 directions for the diffuse and 32 for the glossy one. */
-static aur_result study_picture(statue_study *study, aur_error *error) {
+static aur_result study_image(statue_study *study, aur_error *error) {
     static const double published[SETS] = {NAN, 0.996, 1.117, 1.120, NAN, NAN};
     double base[MOST_SEEDS], mse[MOST_SEEDS], drawn;
     study->lobes = "all";
@@ -117,19 +117,19 @@ static aur_result study_picture(statue_study *study, aur_error *error) {
         result = measure(study, set, 128, 32, s == 0 ? base : mse, error);
         if (result == AUR_OK)
             add_row(study, "10", set, "128 + 32", 160, s == 0 ? base : mse, base, published[s]);
-        if (result == AUR_OK && study->picture_width > 0 && !lab_recall(study->run, set, 1, &drawn)) {
+        if (result == AUR_OK && study->image_width > 0 && !lab_recall(study->run, set, 1, &drawn)) {
             result = draw(study, set, 128, 32, false, error);
             if (result == AUR_OK)
                 result = lab_keep(study->run, set, 1, (const double[]){1.0}, error);
         }
         result = lab_forgive(study->run, study->sets[s], result, error);
     }
-    if (result == AUR_OK && study->picture_width > 0 && !lab_recall(study->run, "reference", 1, &drawn)) {
+    if (result == AUR_OK && study->image_width > 0 && !lab_recall(study->run, "reference", 1, &drawn)) {
         result = draw(study, "spherical-fibonacci", 512, 512, true, error);
         if (result == AUR_OK)
             result = lab_keep(study->run, "reference", 1, (const double[]){1.0}, error);
     }
-    release_truth(study);
+    release_reference(study);
     return result;
 }
 
@@ -182,7 +182,7 @@ static aur_result study_lobe(statue_study *study, const char *lobe, report_table
     }
     if (result == AUR_OK)
         judge(study, errors);
-    release_truth(study);
+    release_reference(study);
     return result;
 }
 
@@ -195,8 +195,8 @@ static aur_result run(lab_run *run, aur_error *error) {
         .light = options->quick ? "direct=none,photons=20000" : "direct=gather,incident=emitters",
         .width = options->quick ? 20 : 40,
         .height = options->quick ? 20 : 50,
-        .picture_width = options->quick ? 0 : 128,
-        .picture_height = 160,
+        .image_width = options->quick ? 0 : 128,
+        .image_height = 160,
         .references = options->quick ? 1024 : 2048,
         .seeds = options->quick ? 4 : 6,
         .sizes = options->quick ? 3 : SIZES,
@@ -208,14 +208,14 @@ static aur_result run(lab_run *run, aur_error *error) {
                                        options->quick ? 0 : 1, &studio, &study.stage, error);
     const bool ready = study.stage.renderer != NULL;
     if (result == AUR_OK && ready)
-        result = study_picture(&study, error);
+        result = study_image(&study, error);
     if (result == AUR_OK && ready)
         result = study_lobe(&study, "diffuse", slopes, error);
     if (result == AUR_OK && ready)
         result = study_lobe(&study, "glossy", slopes, error);
     if (result == AUR_OK && options->quick)
         lab_note(run, "the quick form gathers in the glossy Cornell box");
-    release_truth(&study);
+    release_reference(&study);
     lab_stage_close(&study.stage);
     return result;
 }

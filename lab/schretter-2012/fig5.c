@@ -27,7 +27,7 @@ typedef struct occlusion_study {
     lab_run *run;
     aur_renderer *renderer;
     size_t width, height;
-    size_t picture_width, picture_height; /* of the written images; 0: none */
+    size_t image_width, image_height; /* of the written images; 0: none */
     double max_distance;
     size_t reference_samples, repeats;
     size_t set_count;
@@ -85,12 +85,12 @@ static void name_view(const occlusion_form *form, char view[64]) {
 }
 
 static aur_result draw(const occlusion_study *study, const occlusion_form *form, aur_error *error) {
-    if (study->picture_width == 0)
+    if (study->image_width == 0)
         return AUR_OK;
     char view[64];
     aur_image *image = NULL;
     name_view(form, view);
-    aur_result result = render(study, form, study->picture_width, study->picture_height, 1, &image, error);
+    aur_result result = render(study, form, study->image_width, study->image_height, 1, &image, error);
     const lab_image_position place = {.view = view, .name = form->set->name};
     if (result == AUR_OK)
         result = lab_picture(study->run, &place, image, error);
@@ -151,11 +151,11 @@ static aur_result add_row(occlusion_study *study, const occlusion_form *form, co
 /* The reference once per view, at the size of the images. */
 static aur_result draw_references(const occlusion_study *study, const size_t counts[2], aur_error *error) {
     double drawn;
-    if (study->picture_width == 0 || lab_recall(study->run, "references", 1, &drawn))
+    if (study->image_width == 0 || lab_recall(study->run, "references", 1, &drawn))
         return AUR_OK;
     const occlusion_form fine = {study->truth.set, 1024, true};
     aur_image *picture = NULL;
-    aur_result result = render(study, &fine, study->picture_width, study->picture_height, 0, &picture, error);
+    aur_result result = render(study, &fine, study->image_width, study->image_height, 0, &picture, error);
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
         char view[64];
         name_view(&(occlusion_form){.samples = counts[i / 2], .each_pixel = i % 2 == 0}, view);
@@ -199,8 +199,8 @@ static aur_result run(lab_run *run, aur_error *error) {
     occlusion_study study = {.run = run,
                              .width = options->quick ? 32 : 128,
                              .height = options->quick ? 32 : 96,
-                             .picture_width = options->quick ? 64 : 480,
-                             .picture_height = options->quick ? 64 : 360,
+                             .image_width = options->quick ? 64 : 480,
+                             .image_height = options->quick ? 64 : 360,
                              .max_distance = options->quick ? 150.0 : INFINITY,
                              .reference_samples = options->quick ? 4096 : 16384,
                              .repeats = options->quick ? 4 : MOST_REPEATS,

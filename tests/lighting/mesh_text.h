@@ -1,4 +1,4 @@
-/* OBJ files that tests write, and what they ask of the matrix. */
+/* OBJ files for tests, and helpers for the matrix. */
 #pragma once
 
 #include <aureole-lighting/view_factors.h>
@@ -37,7 +37,7 @@ static inline void mesh_polygon(mesh_file *file, size_t count, const double (*co
     file->vertices += count;
 }
 
-/* The six sides of a box, each a group of its own called `name` and its number (x, y, z low, then high) when
+/* The six sides of a box, each in a separate group named `name` and its number (x, y, z low, then high) if
  * `sides`; seen from outside, or from inside. */
 static inline void mesh_box(mesh_file *file, const char *name, const double low[3], const double high[3],
                             bool inside, bool sides) {

@@ -1,21 +1,21 @@
-/* Meshes that stand anywhere, turned in any way. */
+/* Meshes at any position, with any rotation. */
 #pragma once
 
 #include "mesh_text.h"
 
 /* Turns, then moves. */
-typedef struct mesh_place {
+typedef struct mesh_pose {
     double turn[3][3], offset[3];
-} mesh_place;
+} mesh_pose;
 
-static inline mesh_place place_at(double x, double y, double z) {
-    return (mesh_place){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {x, y, z}};
+static inline mesh_pose move_to(double x, double y, double z) {
+    return (mesh_pose){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {x, y, z}};
 }
 
 /* About the axis (2, 3, 6) / 7 by an angle (Rodrigues). */
-static inline mesh_place place_turned(double angle, double x, double y, double z) {
+static inline mesh_pose place_turned(double angle, double x, double y, double z) {
     const double axis[3] = {2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, c = cos(angle), s = sin(angle);
-    mesh_place place = place_at(x, y, z);
+    mesh_pose place = move_to(x, y, z);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             place.turn[i][k] = (1.0 - c) * axis[i] * axis[k] + (i == k ? c : 0.0);
@@ -29,11 +29,11 @@ static inline mesh_place place_turned(double angle, double x, double y, double z
 }
 
 /* The rounding of a coordinate there, for a mesh a few units wide. */
-static inline double place_rounding(const mesh_place *place) {
+static inline double place_rounding(const mesh_pose *place) {
     return 0x1p-53 * (8.0 + fabs(place->offset[0]) + fabs(place->offset[1]) + fabs(place->offset[2]));
 }
 
-static inline void moved_polygon(mesh_file *file, const mesh_place *place, size_t count,
+static inline void moved_polygon(mesh_file *file, const mesh_pose *place, size_t count,
                                  const double (*corners)[3]) {
     double moved[8][3];
     for (size_t i = 0; i < count; ++i)
@@ -43,8 +43,8 @@ static inline void moved_polygon(mesh_file *file, const mesh_place *place, size_
     mesh_polygon(file, count, (const double(*)[3])moved);
 }
 
-/* As mesh_box, each side in a group of its own. */
-static inline void moved_box(mesh_file *file, const mesh_place *place, const char *name, const double low[3],
+/* As mesh_box, with each side in a separate group. */
+static inline void moved_box(mesh_file *file, const mesh_pose *place, const char *name, const double low[3],
                              const double high[3], bool inside) {
     static const int faces[6][4] = {{0, 4, 6, 2}, {0, 1, 5, 4}, {0, 2, 3, 1},
                                     {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};

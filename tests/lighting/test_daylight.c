@@ -1,4 +1,4 @@
-/* Patches of the sky, products with their coefficients, and years of weather with known sums. */
+/* Sky patches, products with coefficients, and years of weather with known sums. */
 #include <aureole-lighting/daylight.h>
 #include <stdlib.h>
 
@@ -120,12 +120,12 @@ static void test_hours(void **state) {
     (void)state;
     static aur_weather_hour hours[HOURS];
     const aur_weather_view weather = year_of(hours);
-    /* Two tell the third: global irradiance less the sun's, as far as the sun is up. */
+    /* Two determine the third: direct normal irradiance from global and diffuse, by the sun's height. */
     hours[12].diffuse_horizontal = NAN;
     hours[12].global_horizontal = 350.0;
     hours[36].direct_normal = NAN;
     hours[36].global_horizontal = 300.0;
-    hours[60].direct_normal = NAN;      /* one that nothing tells, by day */
+    hours[60].direct_normal = NAN;      /* an hour by day with too little data */
     hours[48].diffuse_horizontal = NAN; /* and one by night, which is dark */
     /* The model of Perez has no light anywhere for a sun through thick clouds at noon in July. */
     hours[4596].direct_normal = 60.0;
@@ -156,7 +156,7 @@ static void test_hours(void **state) {
         const double height = hour->sun[2], horizontal = hour->direct * height;
         assert_true(aur_is_unit(hour->sun)); /* below the horizon it is put on it */
         assert_true((hour->direct > 0.0) == (height > 0.0));
-        /* Sums of 145 patches, and .5 / pi of what reaches the ground. */
+        /* Sums over 145 patches; .5 / pi of the horizontal irradiance is the ground's radiance. */
         const double ground = lit.radiance[aur_daylight_place(patches.count, i, 0)];
         assert_relative(ground, 0.5 / AUR_PI * (diffuse + horizontal), 1e-12);
         if (hour->hour == 12)

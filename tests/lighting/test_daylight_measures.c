@@ -1,5 +1,4 @@
-/* Measures of a year, of illuminances that are made up: shares by counting hours, and errors of what is
- * linear. */
+/* Annual measures of synthetic illuminances: shares by counting hours, and errors of linear measures. */
 #include <aureole/statistics.h>
 
 #include "check.h"
@@ -9,13 +8,13 @@
 
 enum { LANES = AUR_DAYLIGHT_LANES, HOURS = 500 };
 
-typedef struct made_year {
+typedef struct year_of {
     aur_lit_hour hours[HOURS];
     double all[HOURS * LANES], sun[HOURS * LANES], overcast[LANES];
-} made_year;
+} year_of;
 
 /* From 0 to 4000 lux, some of the sun, most hours within the schedule. Randomisations differ by a tenth. */
-static void make_year(uint64_t seed, made_year *year) {
+static void make_year(uint64_t seed, year_of *year) {
     for (size_t i = 0; i < HOURS; ++i) {
         year->hours[i] = (aur_lit_hour){.hour = i, .counts = aur_hash3(seed, 1, i) % 4 != 0};
         const double lux = 4000.0 * pow(aur_unit_double(aur_hash3(seed, 2, i)), 2.0);
@@ -35,7 +34,7 @@ static double mean_of(const double *lanes) {
     return sum;
 }
 
-static aur_daylight measured(const made_year *year, size_t counted) {
+static aur_daylight measured(const year_of *year, size_t counted) {
     static double scratch[2 * HOURS];
     const aur_lit_hours lit = {.count = HOURS, .counted = counted, .hours = (aur_lit_hour *)year->hours};
     aur_daylight_options options = {.size = sizeof options};
@@ -52,7 +51,7 @@ static aur_daylight measured(const made_year *year, size_t counted) {
 /* Of 600 hours that count some 375 are lit. */
 static void test_shares(void **state) {
     (void)state;
-    static made_year year;
+    static year_of year;
     const double counted = 600.0;
     make_year(1, &year);
     const aur_daylight found = measured(&year, 600);
@@ -77,10 +76,10 @@ static void test_shares(void **state) {
     assert_relative(found.value[AUR_DAYLIGHT_SUN_HOURS], sunny, 1e-12);
 }
 
-/* Of what is linear the jackknife's error is the standard error of the mean. */
+/* For linear measures the jackknife's error is the standard error of the mean. */
 static void test_linear_errors(void **state) {
     (void)state;
-    static made_year year;
+    static year_of year;
     make_year(2, &year);
     const aur_daylight found = measured(&year, 600);
     aur_moments annual = {0}, factor = {0};
@@ -101,7 +100,7 @@ static void test_linear_errors(void **state) {
 static void test_spread_of_shares(void **state) {
     (void)state;
     enum { YEARS = 400 };
-    static made_year year;
+    static year_of year;
     aur_moments shares[2] = {0};
     double squares[2] = {0.0};
     static const size_t measures[2] = {AUR_DAYLIGHT_CONTINUOUS, AUR_DAYLIGHT_AUTONOMY};

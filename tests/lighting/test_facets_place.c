@@ -1,4 +1,4 @@
-/* Where a mesh stands changes nothing: factors, sky, radiosities, areas and files. */
+/* The position of a mesh changes nothing: factors, sky, radiosities, areas and files. */
 #include <aureole/statistics.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ enum { OFFSETS = sizeof offsets / sizeof offsets[0], SEEDS = 32 };
 
 /* A table in a room, and two blocks at a street in strips. */
 static aur_facets *load_room(const double offset[3], bool group) {
-    const mesh_place place = place_at(offset[0], offset[1], offset[2]);
+    const mesh_pose place = move_to(offset[0], offset[1], offset[2]);
     mesh_file file;
     mesh_begin(&file, "place-room");
     moved_box(&file, &place, "room", (double[3]){0, 0, 0}, (double[3]){4, 3, 2.5}, true);
@@ -24,7 +24,7 @@ static aur_facets *load_room(const double offset[3], bool group) {
 }
 
 static aur_facets *load_street(const double offset[3], bool both_sides) {
-    const mesh_place place = place_at(offset[0], offset[1], offset[2]);
+    const mesh_pose place = move_to(offset[0], offset[1], offset[2]);
     mesh_file file;
     mesh_begin(&file, "place-street");
     for (int i = 0; i < 3; ++i) {
@@ -44,17 +44,17 @@ static aur_facets *load_street(const double offset[3], bool both_sides) {
 }
 
 static aur_view_factors_options target_of(uint64_t seed, bool rays_only) {
-    aur_view_factors_options wish = {.size = sizeof wish};
-    aur_view_factors_options_init(&wish, NULL);
-    wish.rays = 256;
-    wish.half_planes = 64;
-    wish.seed = seed;
-    wish.rays_only = rays_only;
-    wish.threads = 1;
-    return wish;
+    aur_view_factors_options requested = {.size = sizeof requested};
+    aur_view_factors_options_init(&requested, NULL);
+    requested.rays = 256;
+    requested.half_planes = 64;
+    requested.seed = seed;
+    requested.rays_only = rays_only;
+    requested.threads = 1;
+    return requested;
 }
 
-/* Numbers of many seeds; those of all places are compared with those of the first one. */
+/* Numbers of many seeds; those of all positions are compared with those of the first one. */
 typedef struct sample {
     size_t count;
     double *sums, *squares;
@@ -86,9 +86,9 @@ static void compare(const sample *a, const sample *b, double rounding) {
 }
 
 static void add_factors(sample *s, const aur_facets *facets, uint64_t seed, bool rays_only, double *exact) {
-    const aur_view_factors_options wish = target_of(seed, rays_only);
+    const aur_view_factors_options requested = target_of(seed, rays_only);
     aur_view_factors_matrix m;
-    aur_view_factors *const factors = factors_of(facets, &wish, &m);
+    aur_view_factors *const factors = factors_of(facets, &requested, &m);
     check_physics(&m);
     for (size_t i = 0; i < m.rows; ++i) {
         for (size_t k = 0; k < m.rows; ++k) {
@@ -113,7 +113,7 @@ static void check_factors(aur_facets *(*load)(const double *, bool), bool flag, 
         add_factors(&first, here, seed, rays_only, exact);
     for (size_t p = 0; p < OFFSETS; ++p) {
         aur_facets *const there = load(offsets[p], flag);
-        const mesh_place place = place_at(offsets[p][0], offsets[p][1], offsets[p][2]);
+        const mesh_pose place = move_to(offsets[p][0], offsets[p][1], offsets[p][2]);
         const double rounding = 16.0 * place_rounding(&place);
         sample other = new_sample(numbers);
         for (uint64_t seed = 0; seed < SEEDS; ++seed)
@@ -153,7 +153,7 @@ static void test_street(void **state) {
 
 static void add_radiosities(sample *s, const aur_facets *facets, uint64_t seed, bool matrix, bool sun) {
     const size_t rows = aur_facets_rows(facets);
-    const aur_view_factors_options wish = target_of(seed, false);
+    const aur_view_factors_options requested = target_of(seed, false);
     aur_facets_light light = {.size = sizeof light};
     aur_facets_light_init(&light, NULL);
     light.reflectance = 0.3;
@@ -164,9 +164,10 @@ static void add_radiosities(sample *s, const aur_facets *facets, uint64_t seed, 
     assert_non_null(found);
     aur_view_factors *factors = NULL;
     if (matrix)
-        assert_int_equal(aur_view_factors_create(facets, &wish, &factors, NULL), AUR_OK);
+        assert_int_equal(aur_view_factors_create(facets, &requested, &factors, NULL), AUR_OK);
     assert_int_equal(
-        aur_view_factors_radiosity(facets, factors, &wish, &light, found, NULL, found + rows, NULL), AUR_OK);
+        aur_view_factors_radiosity(facets, factors, &requested, &light, found, NULL, found + rows, NULL),
+        AUR_OK);
     for (size_t i = 0; i < 2 * rows; ++i)
         add(s, i, found[i]);
     aur_view_factors_destroy(factors);
@@ -196,7 +197,7 @@ static void test_radiosities(void **state) {
     }
 }
 
-/* Intervals hold the truth there as often as they say: see test_intervals of test_view_factors.c. */
+/* Intervals have their stated coverage there: see test_intervals of test_view_factors.c. */
 static void test_coverage(void **state) {
     (void)state;
     const double *const offset = offsets[2];
@@ -208,8 +209,8 @@ static void test_coverage(void **state) {
     aur_view_factors *const reference = factors_of(facets, &many, &truth);
     size_t held = 0, all = 0;
     for (uint64_t seed = 0; seed < 60; ++seed) {
-        const aur_view_factors_options wish = target_of(seed, true);
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        const aur_view_factors_options requested = target_of(seed, true);
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         for (size_t i = 0; i < m.rows; ++i)
             for (size_t k = 0; k < i; ++k) {
                 double width, known;
@@ -228,9 +229,9 @@ static void test_coverage(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* What two squares of side 1 at distance 1 send to the sky is 1 less Howell's C-11; rays alone. Five standard
- * deviations of the binomial count are a false alarm in two million; rays that are spread evenly are not
- * quite normal, and here as at the origin some 2 % fewer intervals hold than should. */
+/* The sky factor of two squares of side 1 at distance 1 is 1 less Howell's C-11; rays only. Five standard
+ * deviations of the binomial count give a false alarm in two million. Evenly distributed rays are not quite
+ * normal: here as at the origin some 2 % fewer intervals cover the value. */
 static void test_sky_coverage(void **state) {
     (void)state;
     enum { RUNS = 400 };
@@ -257,10 +258,10 @@ static void test_sky_coverage(void **state) {
     for (size_t c = 0; c < 2; ++c) {
         size_t held = 0;
         for (uint64_t seed = 0; seed < RUNS; ++seed) {
-            aur_view_factors_options wish = target_of(seed, true);
-            wish.confidence = confidences[c];
+            aur_view_factors_options requested = target_of(seed, true);
+            requested.confidence = confidences[c];
             aur_view_factors_matrix m;
-            aur_view_factors *const factors = factors_of(facets, &wish, &m);
+            aur_view_factors *const factors = factors_of(facets, &requested, &m);
             held += fabs(m.sky[0] - expected) <= m.sky_half_widths[0];
             aur_view_factors_destroy(factors);
         }
@@ -271,7 +272,7 @@ static void test_sky_coverage(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* Facets that are small beside their distance from the origin used to vanish when they were merged. */
+/* Regression: facets small relative to their distance from the origin vanished when they were merged. */
 static void test_small_facets(void **state) {
     (void)state;
     aur_box_tree tree;
@@ -296,9 +297,9 @@ static void test_small_facets(void **state) {
             aur_facets_options options = {.size = sizeof options};
             aur_facets_options_init(&options, NULL);
             aur_facets *const facets = mesh_load(&file, &options);
-            const aur_view_factors_options wish = target_of(1, false);
+            const aur_view_factors_options requested = target_of(1, false);
             aur_view_factors_matrix m;
-            aur_view_factors *const factors = factors_of(facets, &wish, &m);
+            aur_view_factors *const factors = factors_of(facets, &requested, &m);
             const double known = 64.0 * 0x1p-53 * (o[0] + o[1] + o[2]) / size;
             double seen = 0.0;
             for (size_t k = 2; k < 4; ++k)
@@ -325,9 +326,9 @@ static void test_far_speck(void **state) {
         aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        const aur_view_factors_options wish = target_of(3, false);
+        const aur_view_factors_options requested = target_of(3, false);
         aur_view_factors_matrix m;
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         found[far] = factor_at(&m, 5, 8, NULL);
         aur_view_factors_destroy(factors);
         aur_facets_destroy(facets);
@@ -335,8 +336,8 @@ static void test_far_speck(void **state) {
     assert_near(found[1], found[0], 1e-9);
 }
 
-/* The underside of a small table sees the ground alone, be that 100 m or 100 km wide: rays of large facets do
- * not begin above what is small, and of small ones not below what is large. */
+/* The underside of a small table sees only the ground, whether that is 100 m or 100 km wide: the ray offsets
+ * of large facets must not exceed the gap, nor those of small ones be too small. */
 static void test_wide_ground(void **state) {
     (void)state;
     for (double h = 50.0; h < 1e5; h *= 1000.0) {
@@ -349,10 +350,10 @@ static void test_wide_ground(void **state) {
         aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        aur_view_factors_options wish = target_of(1, true);
-        wish.rays = 1 << 14;
+        aur_view_factors_options requested = target_of(1, true);
+        requested.rays = 1 << 14;
         aur_view_factors_matrix m;
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         assert_near(factor_at(&m, 3, 0, NULL), 1.0, 2e-4);
         assert_near(m.back[0] + m.back[3], 0.0, 1e-12);
         aur_view_factors_destroy(factors);
@@ -360,19 +361,20 @@ static void test_wide_ground(void **state) {
     }
 }
 
-/* A tilted square about the origin is large beside the coordinates of its middle, from where rays met it. */
+/* A tilted square about the origin is large relative to the coordinates of its centre, which determined the
+ * ray offset once. */
 static void test_tilted_square(void **state) {
     (void)state;
     for (int i = 1; i < 8; ++i) {
-        const mesh_place place = place_turned(0.4 * i, 0, 0, 0);
+        const mesh_pose place = place_turned(0.4 * i, 0, 0, 0);
         mesh_file file;
         mesh_begin(&file, "tilted");
         moved_polygon(&file, &place, 4, (const double[4][3]){{-7, -6, 0}, {8, -6, 0}, {8, 9, 0}, {-7, 9, 0}});
         aur_facets *const facets = mesh_load(&file, NULL);
-        aur_view_factors_options wish = target_of(1, true);
-        wish.rays = 1 << 16;
+        aur_view_factors_options requested = target_of(1, true);
+        requested.rays = 1 << 16;
         aur_view_factors_matrix m;
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         for (size_t k = 0; k < 2; ++k)
             assert_true(m.back[k] == 0.0 && fabs(m.sky[k] - 1.0) < 1e-12);
         aur_view_factors_destroy(factors);

@@ -1,11 +1,11 @@
-/* Radiosities of facets: closed rooms, shadows, and both ways beside each other. */
+/* Radiosities of facets: closed rooms, shadows, and both methods compared. */
 #include <math.h>
 #include <string.h>
 
 #include "mesh_text.h"
 
-/* In a closed room that glows all radiosities are emission / (1 - reflectance): every ray meets a wall, and
- * the reflections are a geometric series from the first one on, so that nothing is left to chance. */
+/* In a closed emitting room all radiosities are emission / (1 - reflectance): every ray hits a wall, and the
+ * reflections are a geometric series from the first one on, without sampling error. */
 static void test_closed_room(void **state) {
     (void)state;
     mesh_file file;
@@ -27,7 +27,8 @@ static void test_closed_room(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* A floor of which a roof, seen from below on its black back, keeps a quarter from the sun in the zenith. */
+/* A floor with a roof, seen from below on its black back, that shades a quarter from the sun in the zenith.
+ */
 static aur_facets *load_shade(void) {
     mesh_file file;
     mesh_begin(&file, "shade");
@@ -89,18 +90,19 @@ static void test_both_ways(void **state) {
     light.emission = 0.5;
     light.sun[0] = 1.0;
     light.sun[2] = 2.0;
-    aur_view_factors_options wish = {.size = sizeof wish};
-    aur_view_factors_options_init(&wish, NULL);
-    wish.rays = 4096;
+    aur_view_factors_options requested = {.size = sizeof requested};
+    aur_view_factors_options_init(&requested, NULL);
+    requested.rays = 4096;
     aur_view_factors *factors = NULL;
-    assert_int_equal(aur_view_factors_create(facets, &wish, &factors, NULL), AUR_OK);
+    assert_int_equal(aur_view_factors_create(facets, &requested, &factors, NULL), AUR_OK);
     double matrix[14], one[14], three[14], half[14], own[14], sky[14];
-    assert_int_equal(aur_view_factors_radiosity(facets, factors, &wish, &light, matrix, own, NULL, NULL),
+    assert_int_equal(aur_view_factors_radiosity(facets, factors, &requested, &light, matrix, own, NULL, NULL),
                      AUR_OK);
-    wish.threads = 1;
-    assert_int_equal(aur_view_factors_radiosity(facets, NULL, &wish, &light, one, half, sky, NULL), AUR_OK);
-    wish.threads = 3;
-    assert_int_equal(aur_view_factors_radiosity(facets, NULL, &wish, &light, three, NULL, NULL, NULL),
+    requested.threads = 1;
+    assert_int_equal(aur_view_factors_radiosity(facets, NULL, &requested, &light, one, half, sky, NULL),
+                     AUR_OK);
+    requested.threads = 3;
+    assert_int_equal(aur_view_factors_radiosity(facets, NULL, &requested, &light, three, NULL, NULL, NULL),
                      AUR_OK);
     assert_memory_equal(one, three, sizeof one);
     size_t sure = 0;
@@ -116,8 +118,8 @@ static void test_both_ways(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* The half widths of the solution without a matrix hold the floor's radiosity, 3.75, as often as they say:
- * five standard deviations of the binomial count are a false alarm in two million. */
+/* The intervals of the solution without a matrix cover the floor's radiosity, 3.75, at the stated rate: five
+ * standard deviations of the binomial count give a false alarm in two million. */
 static void test_half_widths_hold(void **state) {
     (void)state;
     enum { SEEDS = 2000 };

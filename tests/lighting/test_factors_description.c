@@ -1,5 +1,4 @@
-/* What is reported of view factors as a whole: by the matrix itself, or by the parts that it is put together
- * from. */
+/* Statistics of view factors: recomputed from the matrix, or from its parts. */
 #include "lighting/viewfactors/closed_pairs.h"
 #include "lighting/viewfactors/exchange.h"
 #include "lighting/viewfactors/facet_rays.h"
@@ -23,8 +22,8 @@ static aur_view_factors_description description_of(const aur_view_factors *facto
     return d;
 }
 
-/* Rows are triangles, so that an entry has a closed form, and no interval, or is counted along rays. A factor
- * of `unseen` is missed by all rays of a row with half of the chance that confidence leaves. */
+/* Rows are triangles, so an entry is a closed form without interval, or counted along rays. All rays of a row
+ * miss a factor of `unseen` with half the remaining probability. */
 static void test_shares(void **state) {
     (void)state;
     aur_facets *const facets = load_plates();

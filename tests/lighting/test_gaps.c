@@ -1,7 +1,7 @@
 /* Factors across narrow gaps: closed forms from 1e-8 to 1, alone and in rooms, shifted, tilted, far away. */
 #include "moved_mesh.h"
 
-/* Parallel rectangles at any place (Ehlert and Smith 1993): the term of two corners. */
+/* Parallel rectangles at any position (Ehlert and Smith 1993): the term of two corners. */
 static double term(double u, double v, double z) {
     const double a = sqrt(u * u + z * z), b = sqrt(v * v + z * z);
     return v * a * atan2(v, a) + u * b * atan2(u, b) - 0.5 * z * z * log(u * u + v * v + z * z);
@@ -20,7 +20,7 @@ static double expected(double height, double x, double y) {
 
 enum { LOWER = 5, UPPER = 8, ROOM = 12 }; /* the sides that see each other, the first of the room */
 
-static void check_gap(double height, double x, double y, bool room, const mesh_place *place) {
+static void check_gap(double height, double x, double y, bool room, const mesh_pose *place) {
     mesh_file file;
     mesh_begin(&file, "gap");
     moved_box(&file, place, "lower", (double[3]){0, 0, 0}, (double[3]){1, 1, 0.5}, false);
@@ -41,7 +41,7 @@ static void check_gap(double height, double x, double y, bool room, const mesh_p
     assert_near(measured, expected(height, x, y), 1e-11 + 16.0 * place_rounding(place));
     assert_true(width == 0.0);
     check_physics(&m);
-    /* What is left goes where there is something: to the sky, or to the room. */
+    /* The rest goes to existing surroundings: to the sky, or to the room. */
     const double rest = room ? 1.0 - measured : m.sky[LOWER];
     if (x == 0.0)
         assert_near(rest, 1.0 - measured, 1e-12 + 1e-6 * (1.0 - measured));
@@ -54,7 +54,7 @@ static void check_gap(double height, double x, double y, bool room, const mesh_p
 static void test_gaps(void **state) {
     (void)state;
     static const double heights[] = {1e-8, 1e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 1e-3, 0.1, 1.0};
-    const mesh_place here = place_at(0, 0, 0), turned = place_turned(1.0, 0, 0, 0);
+    const mesh_pose here = move_to(0, 0, 0), turned = place_turned(1.0, 0, 0, 0);
     for (size_t h = 0; h < sizeof heights / sizeof heights[0]; ++h)
         for (int room = 0; room < 2; ++room) {
             check_gap(heights[h], 0.0, 0.0, room, &here);
@@ -63,7 +63,7 @@ static void test_gaps(void **state) {
         }
 }
 
-/* Gaps that doubles still know there. */
+/* Gaps that double precision still resolves there. */
 static void test_far_away(void **state) {
     (void)state;
     static const double offsets[][3] = {
@@ -73,15 +73,15 @@ static void test_far_away(void **state) {
         for (size_t h = i == 3; h < sizeof heights / sizeof heights[0]; ++h)
             for (int room = 0; room < 2; ++room) {
                 const double *const o = offsets[i];
-                const mesh_place there = place_at(o[0], o[1], o[2]),
-                                 turned = place_turned(0.5 + (double)i, o[0], o[1], o[2]);
+                const mesh_pose there = move_to(o[0], o[1], o[2]),
+                                turned = place_turned(0.5 + (double)i, o[0], o[1], o[2]);
                 check_gap(heights[h], 0.0, 0.0, room, &there);
                 check_gap(heights[h], 0.3, 0.2, room, &turned);
             }
 }
 
-/* A third box stands on both sides of the gap: it lies on an edge of all that goes across. */
-static void check_stood_on(double gap, const mesh_place *place) {
+/* A third box touches both sides of the gap: it lies on an edge of all light paths across. */
+static void check_stood_on(double gap, const mesh_pose *place) {
     mesh_file file;
     mesh_begin(&file, "stood-on");
     moved_box(&file, place, "left", (double[3]){0, 0, 0}, (double[3]){1, 1, 1}, false);
@@ -95,7 +95,7 @@ static void check_stood_on(double gap, const mesh_place *place) {
     aur_view_factors_matrix m;
     aur_view_factors *const factors = factors_of(facets, NULL, &m);
     const double measured = factor_at(&m, 3, 6, NULL); /* the sides along x that face each other */
-    /* The least change may move what little leaves by the edges, which is about 2 gap. */
+    /* The correction may move the small part that leaves at the edges, about 2 gap. */
     assert_near(measured, expected(gap, 0, 0), 1e-11 + gap);
     check_physics(&m);
     aur_view_factors_destroy(factors);
@@ -105,19 +105,19 @@ static void check_stood_on(double gap, const mesh_place *place) {
 static void test_stood_on(void **state) {
     (void)state;
     static const double gaps[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3};
-    const mesh_place here = place_at(0, 0, 0), turned = place_turned(0.7, 0, 0, 0);
+    const mesh_pose here = move_to(0, 0, 0), turned = place_turned(0.7, 0, 0, 0);
     for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
         check_stood_on(gaps[g], &here);
         check_stood_on(gaps[g], &turned);
     }
 }
 
-/* A sheet that looks down lies on a floor that looks up. What rounding leaves between them is no gap: the
- * sheet sees what is below the floor. */
+/* A sheet facing down lies on a floor facing up. Rounding leaves no gap between them: the sheet sees what is
+ * below the floor. */
 static void test_face_down(void **state) {
     (void)state;
     for (int i = 0; i < 8; ++i) {
-        const mesh_place place =
+        const mesh_pose place =
             place_turned(0.4 * i, 500123.25 * (i % 4), 5412345.5 * (i % 4), i % 2 == 0 ? 431.125 : -1e7);
         mesh_file file;
         mesh_begin(&file, "face-down");
@@ -138,10 +138,9 @@ static void test_face_down(void **state) {
     }
 }
 
-/* Rugs of two sides over .4 of a floor of tiles, one above the other: each sees all of the next one, the
- * floor's covered part the lowest, and what is not covered the sky. Rows: the floor, the rugs, then their
- * backs. */
-static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const mesh_place *place) {
+/* Two-sided rugs over .4 of a tiled floor, on top of each other: each sees all of the next one, the covered
+ * floor the lowest, and the uncovered floor the sky. Rows: the floor, the rugs, then their backs. */
+static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *place) {
     mesh_file file;
     mesh_begin(&file, "rugs");
     for (int part = 0; part < 2; ++part) {
@@ -170,13 +169,13 @@ static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const m
     return mesh_load(&file, &options);
 }
 
-/* Past the edges of a gap goes less than its height times their length, as a part of the smaller area. */
+/* The light past the edges of a gap is below its height times their length, relative to the smaller area. */
 static double lost_past_edges(double gap) {
     return 2.6 / 0.4 * gap;
 }
 
-/* The truth, when all reflect .5 and send out 1: of the floor and the lowest rug's back; between two rugs 2.
- */
+/* The exact radiosities if all reflect .5 and emit 1: of the floor and the lowest rug's back; between two
+ * rugs 2. */
 static void check_radiosities(const double *b, const double *widths, size_t layers, bool rugs_first,
                               double slack) {
     const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
@@ -192,7 +191,7 @@ static void check_radiosities(const double *b, const double *widths, size_t laye
     }
 }
 
-static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_place *place) {
+static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *place) {
     aur_facets *const facets = load_rugs(gap, layers, rugs_first, place);
     const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
     const double slack = lost_past_edges(gap) + 1e-6;
@@ -216,7 +215,7 @@ static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_pl
         check_radiosities(radiosities, widths, layers, rugs_first, mode < 2 ? slack : slack + 1e-3);
         if (factors == NULL)
             continue;
-        /* By the sky's own rays and cells the floor errs by as much as any open floor. */
+        /* Half planes and cells give the floor the error of any open floor. */
         const double lower = factor_at(&m, floor, rows + first, NULL);
         assert_near(lower, 0.4, 0.004);
         assert_near(m.sky[floor], 0.6, 0.004);
@@ -239,10 +238,11 @@ static void test_rugs(void **state) {
     for (size_t i = 0; i < 5; ++i)
         for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
             const double *const o = offsets[i];
-            if (i > 0 && gaps[g] < 1e-6 * (i == 4 ? 5.0 : 1.0)) /* less than doubles know there */
+            if (i > 0 && gaps[g] < 1e-6 * (i == 4 ? 5.0 : 1.0)) /* less than double precision resolves there
+                                                                 */
                 continue;
-            const mesh_place there = place_at(o[0], o[1], o[2]),
-                             turned = place_turned(0.5 + (double)(i + g), o[0], o[1], o[2]);
+            const mesh_pose there = move_to(o[0], o[1], o[2]),
+                            turned = place_turned(0.5 + (double)(i + g), o[0], o[1], o[2]);
             check_rugs(gaps[g], 1 + g % 3, g % 2 == 0, &there);
             check_rugs(gaps[g], 1 + g % 3, g % 2 == 1, &turned);
         }

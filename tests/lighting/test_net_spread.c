@@ -1,4 +1,5 @@
-/* What the parts of one set say of the whole: numbers whose variances fall with a known power of the size. */
+/* The error of a set estimated from its parts: numbers with variances that fall with a known power of the
+ * size. */
 #include "lighting/viewfactors/sky_slices.h"
 
 #include <math.h>
@@ -17,8 +18,8 @@ static double normal(uint64_t a, uint64_t b) {
     return sum;
 }
 
-/* Parts of one set: its own error, and what halves, quarters and eighths are off besides, so that the mean of
- * PARTS / 2^level parts has the variance 2^(rate level). */
+/* Parts of one set: its error plus deviations of halves, quarters and eighths, so that the mean of PARTS /
+ * 2^level parts has the variance 2^(rate level). */
 static void make(double rate, double *values) {
     for (size_t i = 0; i < COUNT; ++i)
         for (size_t p = 0; p < PARTS; ++p) {
@@ -34,8 +35,8 @@ static void make(double rate, double *values) {
         }
 }
 
-/* The rate is found (4,000 numbers tell it to .02), means stay, and Student's intervals of 95 % (2.3646 for 7
- * degrees of freedom) hold: 94 to 96 %, which is three standard deviations of 4,000. */
+/* The rate is estimated (4,000 numbers give it to .02), means are unchanged, and Student's intervals of 95 %
+ * (2.3646 for 7 degrees of freedom) have a coverage of 94 to 96 %, three standard deviations of 4,000. */
 static void test_rates(void **state) {
     (void)state;
     static const double rates[] = {1.0, 1.5, 2.0};
@@ -59,7 +60,7 @@ static void test_rates(void **state) {
     free(values);
 }
 
-/* Two parts, or an odd number, tell no rate; nothing that varies stays as it is. */
+/* Two parts, or an odd number, determine no rate; constants are unchanged. */
 static void test_little(void **state) {
     (void)state;
     double two[2] = {0.25, 0.75}, same[4] = {0.5, 0.5, 0.5, 0.5};

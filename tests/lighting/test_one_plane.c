@@ -28,9 +28,9 @@ static double dice(uint64_t seed, uint64_t number) {
     return aur_unit_double(aur_hash2(seed, number));
 }
 
-/* Brute force: at every point of the plane that is not near an edge, the facets left are those of the first
- * triangle that has the point, once. */
-static void check_plane(uint64_t seed, size_t count, const mesh_place *place, const char *digits) {
+/* Brute force: every point of the plane that is not near an edge is covered once, by the first triangle that
+ * contains it. */
+static void check_plane(uint64_t seed, size_t count, const mesh_pose *place, const char *digits) {
     enum { MOST = 24, POINTS = 400 };
     triangle triangles[MOST];
     aur_facets_options options = {.size = sizeof options};
@@ -41,7 +41,7 @@ static void check_plane(uint64_t seed, size_t count, const mesh_place *place, co
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = 0; k < 6; ++k)
             triangles[i].corners[k / 2][k % 2] = 4.0 * dice(seed, 6 * i + k);
-        if (i % 5 == 4) /* a copy, of which not all corners are in the same order */
+        if (i % 5 == 4) /* a copy, with a different order of corners */
             for (size_t k = 0; k < 3; ++k)
                 memcpy(triangles[i].corners[k], triangles[i - 3].corners[(k + 1) % 3], 2 * sizeof(double));
         for (size_t c = 0; c < 3; ++c) {
@@ -94,8 +94,8 @@ static void test_brute_force(void **state) {
     static const char *const exact = "v %.17g %.17g %.17g\n", *const rounded = "v %.6f %.6f %.6f\n";
     for (uint64_t seed = 0; seed < 12; ++seed) {
         const double angle = seed % 3 == 0 ? 0.0 : 0.3 * (double)seed;
-        const mesh_place near = place_turned(angle, 0.1, 0.2, -3),
-                         far = place_turned(angle, 500000.37, 5400000.11, 45.2);
+        const mesh_pose near = place_turned(angle, 0.1, 0.2, -3),
+                        far = place_turned(angle, 500000.37, 5400000.11, 45.2);
         check_plane(seed, 2 + 2 * (seed % 12), &near, exact);
         check_plane(seed, 10, &near, rounded);
         check_plane(seed, 10, &far, exact);
@@ -138,12 +138,13 @@ static void test_rule(void **state) {
     }
     assert_int_equal(count_cut(0.0, 0.0, false, false), 2);
     assert_int_equal(count_cut(0.0, 0.0, true, false), 0);  /* a sheet */
-    assert_int_equal(count_cut(1e-8, 0.0, true, true), 0);  /* a gap, into which both look */
-    assert_int_equal(count_cut(-1e-8, 0.0, true, true), 0); /* a thin plate: rays of doubles know its sides */
+    assert_int_equal(count_cut(1e-8, 0.0, true, true), 0);  /* a gap, which both sides face */
+    assert_int_equal(count_cut(-1e-8, 0.0, true, true), 0); /* a thin plate: double-precision rays distinguish
+                                                             * its sides */
     assert_int_equal(count_cut(1e-8, 0.0, false, true), 0);
 }
 
-/* Each side of a sheet sees what is before it, though rays meet either of its two facets. */
+/* Each side of a sheet sees what is in front of it, though rays hit either of its two facets. */
 static void test_sheet(void **state) {
     (void)state;
     for (int shifted = 0; shifted < 2; ++shifted) {
@@ -162,13 +163,13 @@ static void test_sheet(void **state) {
         aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        aur_view_factors_options wish = {.size = sizeof wish};
-        aur_view_factors_options_init(&wish, NULL);
-        wish.rays = 1 << 16;
-        wish.rays_only = true;
+        aur_view_factors_options requested = {.size = sizeof requested};
+        aur_view_factors_options_init(&requested, NULL);
+        requested.rays = 1 << 16;
+        requested.rays_only = true;
         aur_view_factors_matrix exact, m;
         aur_view_factors *const closed = factors_of(facets, NULL, &exact);
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         for (size_t i = 0; i < 4; ++i) {
             double width;
             const size_t k = i ^ 2;

@@ -87,7 +87,7 @@ static void test_disks(void **state) {
     }
 }
 
-/* A box is closed: what leaves a face arrives at the other five, whether a face is one polygon or two. */
+/* A box is closed: the light of a face arrives at the other five, whether a face is one polygon or two. */
 static void test_box_is_closed(void **state) {
     (void)state;
     const double s[3] = {1.0, 0.37, 2.2};
@@ -135,7 +135,7 @@ static void test_far_polygons(void **state) {
     }
 }
 
-/* What lies behind a plane is cut off: a wall that goes through the floor counts from the floor on. */
+/* The part behind a plane is clipped: a wall through the floor counts from the floor on. */
 static void test_horizon(void **state) {
     (void)state;
     const double floor[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -145,12 +145,11 @@ static void test_horizon(void **state) {
     assert_true(factor_of(4, floor, 4, behind) == 0.0);
     const double away[] = {0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
     assert_true(factor_of(4, floor, 4, away) == 0.0);
-    const double beside[] = {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0};
-    assert_true(factor_of(4, floor, 4, beside) == 0.0);
+    const double next_to[] = {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0};
+    assert_true(factor_of(4, floor, 4, next_to) == 0.0);
 }
 
-/* Edges that nearly touch, nearly cross and nearly lie on each other: the factors go over into those of
- * touching ones. */
+/* Edges that nearly touch, intersect or coincide: the factors converge to those of touching ones. */
 static void test_near_misses(void **state) {
     (void)state;
     const double floor[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};

@@ -1,4 +1,4 @@
-/* Intervals after the least change: what is done to deviations is what is done to each randomisation. */
+/* Intervals after the correction: the deviations change as if each randomisation were corrected. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { ROWS = 4, ENTRIES = 14, UPPER = 9, PARTS = 8 };
 
-/* All pairs but that of the first row and the last one, and the third row sees itself only a little less. */
+/* All pairs except the first row and the last one; the third row sees itself only a little less. */
 static const uint64_t starts[ROWS + 1] = {0, 3, 7, 11, 14};
 static const uint32_t columns[ENTRIES] = {0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 3, 1, 2, 3};
 static const double sky_exchange = 0.1;
@@ -33,7 +33,7 @@ static double deviation(size_t what, size_t a, size_t b, size_t part) {
     return 1e-3 * (number(what + part, a, b) - mean);
 }
 
-/* What is reported of the balance, by the entries and the sky before it. */
+/* The report of the correction, from the entries and the sky before it. */
 static void check_balance(const aur_exchange *g, const double *values, const double *sky,
                           const aur_balance *balance) {
     double squares = 0.0, area = 0.0, moved = 0.0, total = 0.0, largest = 0.0;
@@ -107,9 +107,9 @@ static aur_exchange make(size_t part) {
     return g;
 }
 
-/* Each randomisation balanced by itself spreads as the intervals say. The mean adds up before, so that what
- * the randomisations' own sky makes of the weights is of second order in deviations of less than a hundredth;
- * deviations are floats, and found to 1e-4. */
+/* The spread of individually corrected randomisations equals the intervals. The mean needs no correction, so
+ * the effect of the randomisations' sky on the weights is of second order in deviations below a hundredth.
+ * Deviations are floats, solved to 1e-4. */
 static void test_spread(void **state) {
     (void)state;
     const aur_exchange mean = make(PARTS);

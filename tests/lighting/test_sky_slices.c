@@ -1,5 +1,4 @@
-/* Sky factors by half planes against closed forms: what a patch does not see of one polygon, or sees of it,
- * is sky. */
+/* Sky factors by half planes against closed forms with one polygon: it hides the sky, or is the only sky. */
 #include <math.h>
 #include <string.h>
 
@@ -40,8 +39,8 @@ static double *measure(const aur_facets *facets, size_t threads) {
     return sky;
 }
 
-/* The mean, and by how much its randomisations say that it errs: Student's 7 degrees of freedom have 9 such
- * errors once in 20,000 numbers. */
+/* The mean, and its error estimated from the randomisations: with Student's 7 degrees of freedom 9 such
+ * errors are exceeded once in 20,000 numbers. */
 static void check_sky(const double *sky, double exact) {
     double mean = 0.0, squares = 0.0;
     for (size_t r = 0; r < RANDOMIZATIONS; ++r)
@@ -53,7 +52,7 @@ static void check_sky(const double *sky, double exact) {
     assert_near(mean, exact, 9.0 * error + BIAS);
 }
 
-/* Each facet's sky factor, from that of its view to `other` (its part that is sky, or 1 less it). */
+/* Each facet's sky factor, from its view factor to `other` (the visible sky, or its complement). */
 static void check_facets(const aur_facets *facets, size_t count, const double (*other)[3], bool is_sky) {
     double *const sky = measure(facets, 1);
     for (size_t i = 0; i < facets->count; ++i) {
@@ -90,7 +89,7 @@ static void test_open_room(void **state) {
     }
 }
 
-/* Ground below a plate in the air: there is sky above and below what hides it in a half plane. */
+/* Ground below a plate in the air: in a half plane there is sky above and below the occluder. */
 static void test_plate(void **state) {
     (void)state;
     static const double ground[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

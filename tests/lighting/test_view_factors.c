@@ -14,7 +14,7 @@ static aur_facets_options grouped(void) {
     return options;
 }
 
-/* Howell C-11 for a unit cube's opposite sides, and what is left for the four others. */
+/* Howell C-11 for a unit cube's opposite sides; the four others share the rest. */
 static void test_cube(void **state) {
     (void)state;
     mesh_file file;
@@ -41,8 +41,8 @@ static void test_cube(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* A sphere in a box: all that leaves it arrives at the box, and of the box's light the part that the areas
- * tell. Much of the box is hidden from itself. */
+/* A sphere in a box: all its light arrives at the box; the reverse factor follows from the areas. Much of the
+ * box is hidden from itself. */
 static void test_sphere_in_enclosure(void **state) {
     (void)state;
     mesh_file file;
@@ -143,8 +143,8 @@ static void test_cavity(void **state) {
         for (size_t i = 0; i < m.rows; ++i)
             sum[i] += light[i] = next[i];
     }
-    /* The opening is flat for the polyhedron, too: what a point sees of the cavity differs by the second
-     * power of a facet's angle, 2 pi / 24. */
+    /* The opening is flat for the polyhedron, too: the view of the cavity differs by the second power of a
+     * facet's angle, 2 pi / 24. */
     const double seen = 0.5 * (1.0 + cos(opening));
     const double radiosity = emittance / (1.0 - (1.0 - emittance) * seen);
     double mean = 0.0, area = 0.0;
@@ -159,7 +159,7 @@ static void test_cavity(void **state) {
     aur_facets_destroy(facets);
 }
 
-/* Some light goes to the sky, some is stopped by a block. */
+/* Some light goes to the sky, a block stops some. */
 static aur_facets *load_yard(const aur_facets_options *options) {
     mesh_file file;
     mesh_begin(&file, "yard");
@@ -182,16 +182,16 @@ static void test_physics_and_threads(void **state) {
         options.group = variant == 1;
         options.both_sides = variant == 2;
         aur_facets *const facets = load_yard(&options);
-        aur_view_factors_options wish = {.size = sizeof wish};
-        aur_view_factors_options_init(&wish, NULL);
-        wish.rays = 512;
-        wish.rays_only = variant == 3;
-        wish.seed = 5;
-        wish.threads = 1;
+        aur_view_factors_options requested = {.size = sizeof requested};
+        aur_view_factors_options_init(&requested, NULL);
+        requested.rays = 512;
+        requested.rays_only = variant == 3;
+        requested.seed = 5;
+        requested.threads = 1;
         aur_view_factors_matrix one, three;
-        aur_view_factors *const first = factors_of(facets, &wish, &one);
-        wish.threads = 3;
-        aur_view_factors *const second = factors_of(facets, &wish, &three);
+        aur_view_factors *const first = factors_of(facets, &requested, &one);
+        requested.threads = 3;
+        aur_view_factors *const second = factors_of(facets, &requested, &three);
         check_physics(&one);
         assert_int_equal(one.rows, three.rows);
         const size_t entries = one.starts[one.rows];
@@ -206,9 +206,9 @@ static void test_physics_and_threads(void **state) {
     }
 }
 
-/* Rays alone agree with closed forms, and their intervals hold the truth as often as they say: 15 factors of
- * a room's walls, 60 seeds. They are not independent (rows add up to 1): were a third of them, three
- * standard deviations would be 4 %. */
+/* Rays agree with closed forms, and their intervals have the stated coverage: 15 factors of a room's walls,
+ * 60 seeds. They are correlated (rows sum to 1): if a third were independent, three standard deviations would
+ * be 4 %. */
 static void test_intervals(void **state) {
     (void)state;
     mesh_file file;
@@ -220,12 +220,12 @@ static void test_intervals(void **state) {
     aur_view_factors *const closed = factors_of(facets, NULL, &exact);
     size_t held = 0, all = 0;
     for (uint64_t seed = 0; seed < 60; ++seed) {
-        aur_view_factors_options wish = {.size = sizeof wish};
-        aur_view_factors_options_init(&wish, NULL);
-        wish.rays_only = true;
-        wish.rays = 256;
-        wish.seed = seed;
-        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        aur_view_factors_options requested = {.size = sizeof requested};
+        aur_view_factors_options_init(&requested, NULL);
+        requested.rays_only = true;
+        requested.rays = 256;
+        requested.seed = seed;
+        aur_view_factors *const factors = factors_of(facets, &requested, &m);
         check_physics(&m);
         for (size_t i = 0; i < 6; ++i)
             for (size_t k = 0; k < i; ++k) {
@@ -248,15 +248,15 @@ static void test_product(void **state) {
     (void)state;
     aur_facets *const facets = load_yard(NULL);
     const size_t rows = aur_facets_rows(facets);
-    aur_view_factors_options wish = {.size = sizeof wish};
-    aur_view_factors_options_init(&wish, NULL);
+    aur_view_factors_options requested = {.size = sizeof requested};
+    aur_view_factors_options_init(&requested, NULL);
     aur_view_factors_matrix m;
-    aur_view_factors *const factors = factors_of(facets, &wish, &m);
+    aur_view_factors *const factors = factors_of(facets, &requested, &m);
     double *const numbers = malloc(3 * rows * sizeof *numbers);
     assert_non_null(numbers);
     double *const x = numbers, *const y = x + rows, *const sky = y + rows;
     aur_view_factors_options options;
-    assert_int_equal(aur_view_factors_read_options(&wish, &options, NULL), AUR_OK);
+    assert_int_equal(aur_view_factors_read_options(&requested, &options, NULL), AUR_OK);
     aur_facet_pattern pattern = {0};
     const aur_parallel_options parallel = {.threads = 0};
     assert_int_equal(aur_facet_pattern_create(options.set, options.rays / options.randomizations,
@@ -293,21 +293,21 @@ static void test_errors(void **state) {
     aur_facets *const facets = load_yard(NULL);
     aur_view_factors *factors;
     aur_error error;
-    aur_view_factors_options wish = {.size = sizeof wish};
-    aur_view_factors_options_init(&wish, NULL);
-    wish.rays = 4;
-    assert_int_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_ERROR_ARGUMENT);
-    wish.rays = 0;
-    wish.randomizations = 1;
-    assert_int_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_ERROR_ARGUMENT);
-    wish.randomizations = 0;
-    wish.set = "no-such-set";
-    assert_int_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_ERROR_NAME);
-    wish.set = "van-der-corput";
-    assert_int_not_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_OK);
-    wish.set = NULL;
-    wish.confidence = 1.5;
-    assert_int_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_ERROR_ARGUMENT);
+    aur_view_factors_options requested = {.size = sizeof requested};
+    aur_view_factors_options_init(&requested, NULL);
+    requested.rays = 4;
+    assert_int_equal(aur_view_factors_create(facets, &requested, &factors, &error), AUR_ERROR_ARGUMENT);
+    requested.rays = 0;
+    requested.randomizations = 1;
+    assert_int_equal(aur_view_factors_create(facets, &requested, &factors, &error), AUR_ERROR_ARGUMENT);
+    requested.randomizations = 0;
+    requested.set = "no-such-set";
+    assert_int_equal(aur_view_factors_create(facets, &requested, &factors, &error), AUR_ERROR_NAME);
+    requested.set = "van-der-corput";
+    assert_int_not_equal(aur_view_factors_create(facets, &requested, &factors, &error), AUR_OK);
+    requested.set = NULL;
+    requested.confidence = 1.5;
+    assert_int_equal(aur_view_factors_create(facets, &requested, &factors, &error), AUR_ERROR_ARGUMENT);
     aur_facets_destroy(facets);
 }
 

@@ -7,7 +7,7 @@
 #include "points/base/vector3d.h"
 #include "render/trace/packet_rays.h"
 
-static void add_light(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight) {
+static void add_light(void *user, size_t lane, aur_vector direction, aur_vector light, bool unscattered) {
     const aur_coefficients *const c = user;
     const aur_sun_position *const frame = &c->sky->frame;
     double world[3], rgb[3];
@@ -22,19 +22,19 @@ static void add_light(void *user, size_t lane, aur_vector direction, aur_vector 
         const size_t at = (channel * c->patches->count + patch) * AUR_DAYLIGHT_LANES + lane;
         const double value = aur_dot3(c->weights[channel], rgb) / ground;
         c->all[at] += value;
-        if (!straight)
+        if (!unscattered)
             c->reflected[at] += value;
     }
 }
 
 void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
-                           const aur_coefficients *coefficients, aur_sensor_sums *look) {
+                           const aur_coefficients *coefficients, aur_sensor_sums *sums) {
     const size_t count = coefficients->channels * coefficients->patches->count * AUR_DAYLIGHT_LANES;
     memset(coefficients->all, 0, count * sizeof *coefficients->all);
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
     group->sensor.from_sky = add_light;
     group->sensor.from_sky_user = (void *)(uintptr_t)coefficients;
-    aur_sensor_trace(group, rule, place, NULL, 0, look);
+    aur_sensor_trace(group, rule, place, NULL, 0, sums);
     const double scale = AUR_PI / (double)rule->count;
     for (size_t i = 0; i < count; ++i) {
         coefficients->all[i] *= scale;

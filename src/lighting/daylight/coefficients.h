@@ -45,7 +45,7 @@ aur_result aur_daylight_options_read(const aur_daylight_options *given, aur_dayl
 
 /* Fills all[] and reflected[]. */
 void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
-                           const aur_coefficients *coefficients, aur_sensor_sums *look);
+                           const aur_coefficients *coefficients, aur_sensor_sums *sums);
 
 /* seen[lit->count][16]: the illuminance directly from the sun in each hour, by one point of its disk per
  * randomisation. */

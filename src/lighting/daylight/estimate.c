@@ -150,11 +150,11 @@ static void keep_series(const work *w, size_t sensor, const double *all) {
 static void estimate_sensor(const work *w, aur_path_group *group, const room *r, size_t sensor) {
     static const aur_closed_lights none = {0};
     aur_sensor_point place;
-    aur_sensor_sums look;
+    aur_sensor_sums sums;
     double overcast[LANES] = {0.0};
     aur_sensor_point_create(w->trace.sky.scene, &none, w->sensors->positions + 3 * sensor,
                             w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
-    aur_coefficients_find(group, &w->trace.rule, &place, &r->coefficients, &look);
+    aur_coefficients_find(group, &w->trace.rule, &place, &r->coefficients, &sums);
     aur_sun_seen(group, &place, &r->coefficients, &w->lit, r->sun);
     multiply(w, r);
     for (size_t p = 0; p < w->trace.patches.count; ++p)
@@ -164,7 +164,7 @@ static void estimate_sensor(const work *w, aur_path_group *group, const room *r,
     *found = (aur_daylight){.directions = w->trace.rule.count * LANES,
                             .on_surface = place.on_surface,
                             .doubtful = place.doubtful};
-    found->dark = (double)look.dark / (double)found->directions;
+    found->dark = (double)sums.dark / (double)found->directions;
     const aur_daylight_year year = {r->all, r->sun, overcast};
     aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);
     if (w->series != NULL)
@@ -211,12 +211,12 @@ static aur_result prepare(work *w, const aur_scene *scene, aur_error *error) {
 }
 
 /* Percents of the sensors. */
-static void summarize(const work *w, aur_daylight_summary *own) {
+static void summarize(const work *w, aur_daylight_summary *computed) {
     enum { WEAK = 50, SUNNY = 250 };
     const double t = aur_student_quantile(LANES - 1, 0.975), one = 100.0 / (double)w->sensors->count;
-    own->hours = w->lit.counted;
-    own->unknown_hours = w->lit.unknown;
-    own->other_skies = w->lit.other_skies;
+    computed->hours = w->lit.counted;
+    computed->unknown_hours = w->lit.unknown;
+    computed->other_skies = w->lit.other_skies;
     size_t enough = 0, least = 0, most = 0, sunny = 0;
     for (size_t i = 0; i < w->sensors->count; ++i) {
         const aur_daylight *const found = &w->results[i];
@@ -227,10 +227,10 @@ static void summarize(const work *w, aur_daylight_summary *own) {
         most += value + half >= WEAK;
         sunny += found->value[AUR_DAYLIGHT_SUN_HOURS] > SUNNY;
     }
-    own->spatial_autonomy = one * (double)enough;
-    own->spatial_autonomy_least = one * (double)least;
-    own->spatial_autonomy_most = one * (double)most;
-    own->sunlight_exposure = one * (double)sunny;
+    computed->spatial_autonomy = one * (double)enough;
+    computed->spatial_autonomy_least = one * (double)least;
+    computed->spatial_autonomy_most = one * (double)most;
+    computed->sunlight_exposure = one * (double)sunny;
 }
 
 static void warn(const work *w) {
@@ -264,7 +264,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
     aur_daylight_options options;
     aur_sensors_view sensors = {.size = sizeof sensors};
     aur_weather_view weather = {.size = sizeof weather};
-    aur_daylight_summary own = {.size = sizeof own};
+    aur_daylight_summary computed = {.size = sizeof computed};
     aur_result result = aur_daylight_options_read(given_options, &options, error);
     if (result == AUR_OK)
         result = aur_options_read(given, sizeof sensors, &sensors, "aur_sensors_view", error);
@@ -291,9 +291,10 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
         result = aur_daylight_series_write(options.series, &weather, sensors.count, w.series, error);
     if (result == AUR_OK) {
         warn(&w);
-        summarize(&w, &own);
+        summarize(&w, &computed);
         if (summary != NULL)
-            result = aur_description_write(&own, sizeof own, summary, "aur_daylight_summary", error);
+            result =
+                aur_description_write(&computed, sizeof computed, summary, "aur_daylight_summary", error);
     }
     aur_lit_hours_release(&w.lit);
     aur_coefficient_trace_release(&w.trace);

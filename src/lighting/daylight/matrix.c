@@ -14,17 +14,17 @@
 
 enum { LANES = AUR_DAYLIGHT_LANES, CHANNELS = 3 };
 
-typedef struct sensor_look {
+typedef struct sensor_state {
     bool on_surface, doubtful;
     double dark, light;
-} sensor_look;
+} sensor_state;
 
 typedef struct work {
     const aur_daylight_options *options;
     const aur_sensors_view *sensors;
     aur_coefficient_trace trace;
     double *coefficients, *errors;
-    sensor_look *looks;
+    sensor_state *states;
 } work;
 
 size_t aur_daylight_patch_count(size_t subdivision) {
@@ -42,7 +42,7 @@ static void reduce(const work *w, size_t sensor, const double *all) {
             w->coefficients[at] = one.mean;
             if (w->errors != NULL)
                 w->errors[at] = aur_moments_standard_error(&one);
-            w->looks[sensor].light += one.mean;
+            w->states[sensor].light += one.mean;
         }
 }
 
@@ -66,9 +66,9 @@ static aur_result estimate_sensor(void *context, size_t sensor) {
     aur_sensor_point_create(w->trace.sky.scene, &none, w->sensors->positions + 3 * sensor,
                             w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
     aur_coefficients_find(&group, &w->trace.rule, &place, &coefficients, &sums);
-    w->looks[sensor] = (sensor_look){.on_surface = place.on_surface,
-                                     .doubtful = place.doubtful,
-                                     .dark = (double)sums.dark / (double)(w->trace.rule.count * LANES)};
+    w->states[sensor] = (sensor_state){.on_surface = place.on_surface,
+                                       .doubtful = place.doubtful,
+                                       .dark = (double)sums.dark / (double)(w->trace.rule.count * LANES)};
     reduce(w, sensor, all);
     free(all);
     return AUR_OK;
@@ -77,8 +77,8 @@ static aur_result estimate_sensor(void *context, size_t sensor) {
 static void warn(const work *w) {
     aur_sensor_oddities odd = {0};
     for (size_t i = 0; i < w->sensors->count; ++i) {
-        const sensor_look *const look = &w->looks[i];
-        aur_sensor_note(i, look->on_surface, look->doubtful, look->dark, look->light, &odd);
+        const sensor_state *const state = &w->states[i];
+        aur_sensor_note(i, state->on_surface, state->doubtful, state->dark, state->light, &odd);
     }
     aur_sensors_warn(w->sensors, &w->options->warnings, &odd);
 }
@@ -98,8 +98,8 @@ aur_result aur_daylight_coefficients(const aur_scene *scene, const aur_sensors_v
     options.ground_albedo = 1.0; /* the ground patch is traced for any reflectance */
     work w = {.options = &options, .sensors = &sensors, .coefficients = coefficients, .errors = errors};
     result = aur_coefficient_trace_create(scene, &options, &w.trace, error);
-    w.looks = calloc(sensors.count, sizeof *w.looks);
-    if (result == AUR_OK && w.looks == NULL)
+    w.states = calloc(sensors.count, sizeof *w.states);
+    if (result == AUR_OK && w.states == NULL)
         result = aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = options.threads, .what = "sensors", .progress = options.progress, .flush_denormals = true};
@@ -107,7 +107,7 @@ aur_result aur_daylight_coefficients(const aur_scene *scene, const aur_sensors_v
         result = aur_parallel_for(&parallel, sensors.count, estimate_sensor, &w, error);
     if (result == AUR_OK)
         warn(&w);
-    free(w.looks);
+    free(w.states);
     aur_coefficient_trace_release(&w.trace);
     return result;
 }

@@ -53,13 +53,13 @@ static void check_hours(const aur_weather_view *weather, tally *balance, tally *
         const heights sun = heights_of(weather, hour);
         /* Direct irradiance at night, which some files have, is ignored. */
         const double bright = fmax(hour->diffuse_horizontal, hour->global_horizontal);
-        const double known = hour->direct_normal + hour->diffuse_horizontal + hour->global_horizontal;
-        if (sun.least > LOW && known > 0.0) /* not NaN */
+        const double sum = hour->direct_normal + hour->diffuse_horizontal + hour->global_horizontal;
+        if (sun.least > LOW && sum > 0.0) /* not NaN */
             count(balance, is_unbalanced(hour, sun.mean), hour->line);
         if (bright > 20.0)
             count(night, sun.largest < DEEP, hour->line);
-        if (sun.least > HIGH && known >= 0.0)
-            count(day, known == 0.0, hour->line);
+        if (sun.least > HIGH && sum >= 0.0)
+            count(day, sum == 0.0, hour->line);
     }
 }
 

@@ -16,7 +16,7 @@ enum { PHOTONS_A_TEXEL = 16, BOUNCES = 12 };
 
 /* --- cached light */
 
-static aur_result find_map(const aur_scene *scene, const aur_irradiance_options *o, aur_cached_light *known,
+static aur_result find_map(const aur_scene *scene, const aur_irradiance_options *o, aur_cached_light *cache,
                            aur_error *error) {
     const aur_irradiance_map_options options = {
         .photons = {.count = o->particles,
@@ -27,10 +27,10 @@ static aur_result find_map(const aur_scene *scene, const aur_irradiance_options 
                     .progress = o->progress,
                     .warnings = o->warnings},
         .photons_a_texel = PHOTONS_A_TEXEL};
-    return aur_irradiance_map_create(scene, &options, &known->map, error);
+    return aur_irradiance_map_create(scene, &options, &cache->map, error);
 }
 
-static aur_result solve(const aur_scene *scene, const aur_irradiance_options *o, aur_cached_light *known,
+static aur_result solve(const aur_scene *scene, const aur_irradiance_options *o, aur_cached_light *cache,
                         aur_error *error) {
     aur_radiosity_options options = {.size = sizeof options};
     aur_radiosity_options_init(&options, NULL);
@@ -39,64 +39,64 @@ static aur_result solve(const aur_scene *scene, const aur_irradiance_options *o,
     options.threads = o->threads;
     options.progress = o->progress;
     options.warnings = o->warnings;
-    aur_result result = aur_radiosity_create(scene, &options, &known->solution, error);
+    aur_result result = aur_radiosity_create(scene, &options, &cache->solution, error);
     if (result == AUR_OK)
-        result = aur_radiosity_trace(known->solution, o->particles, error);
+        result = aur_radiosity_trace(cache->solution, o->particles, error);
     if (result != AUR_OK)
         return result;
-    const size_t count = known->solution->scene.patch_count;
-    known->exitances = malloc(count * sizeof *known->exitances);
-    if (known->exitances == NULL)
+    const size_t count = cache->solution->scene.patch_count;
+    cache->exitances = malloc(count * sizeof *cache->exitances);
+    if (cache->exitances == NULL)
         return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i)
-        known->exitances[i] = aur_radiosity_exitance(known->solution, i);
+        cache->exitances[i] = aur_radiosity_exitance(cache->solution, i);
     return AUR_OK;
 }
 
 aur_result aur_cached_light_create(const aur_scene *scene, const aur_irradiance_options *options,
-                                   aur_cached_light *known, aur_error *error) {
-    *known = (aur_cached_light){0};
+                                   aur_cached_light *cache, aur_error *error) {
+    *cache = (aur_cached_light){0};
     if (options->reflected == AUR_REFLECTED_BY_PATHS || options->max_depth == 1) /* nothing is reflected */
         return AUR_OK;
-    return options->reflected == AUR_REFLECTED_BY_MAP ? find_map(scene, options, known, error)
-                                                      : solve(scene, options, known, error);
+    return options->reflected == AUR_REFLECTED_BY_MAP ? find_map(scene, options, cache, error)
+                                                      : solve(scene, options, cache, error);
 }
 
-void aur_cached_light_release(aur_cached_light *known) {
-    aur_irradiance_map_destroy(known->map);
-    aur_radiosity_destroy(known->solution);
-    free(known->exitances);
-    *known = (aur_cached_light){0};
+void aur_cached_light_release(aur_cached_light *cache) {
+    aur_irradiance_map_destroy(cache->map);
+    aur_radiosity_destroy(cache->solution);
+    free(cache->exitances);
+    *cache = (aur_cached_light){0};
 }
 
 /* --- where a path may use the cache */
 
 /* Plain triangles, by index within the group. */
-static aur_texel_view plain_light(const aur_cached_light *known, const aur_path_group *g, size_t lane) {
+static aur_texel_view plain_light(const aur_cached_light *cache, const aur_path_group *g, size_t lane) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
     const bool behind = g->lanes.side[lane] < 0.0f;
     const aur_vector albedo = aur_lane_vector(&g->lanes.albedo[behind ? 1 : 0], lane);
     if (aur_vector_is_zero(albedo))
         return (aur_texel_view){0};
-    if (known->map != NULL) {
+    if (cache->map != NULL) {
         const uint32_t element =
-            known->map->texels.elements.shape_first[hits->geomID[lane]] + hits->primID[lane];
+            cache->map->texels.elements.shape_first[hits->geomID[lane]] + hits->primID[lane];
         const aur_texel_light *const light =
-            aur_irradiance_on_triangle(known->map, element, hits->u[lane], hits->v[lane], behind);
+            aur_irradiance_on_triangle(cache->map, element, hits->u[lane], hits->v[lane], behind);
         return (aur_texel_view){
             aur_vector_scale(aur_vector_multiply(albedo, light->irradiance), 1.0f / AUR_PI_F), light->area};
     }
-    const aur_radiosity_scene *const scene = &known->solution->scene;
+    const aur_radiosity_scene *const scene = &cache->solution->scene;
     const uint32_t triangle = scene->first[hits->geomID[lane]] + hits->primID[lane];
     const uint32_t patch = behind ? scene->triangles[triangle].back : triangle;
     if (patch == AUR_NO_PATCH)
         return (aur_texel_view){0};
-    return (aur_texel_view){aur_vector_multiply(albedo, known->exitances[patch]),
+    return (aur_texel_view){aur_vector_multiply(albedo, cache->exitances[patch]),
                             (float)scene->areas[triangle]};
 }
 
 /* Other surfaces whose lobes are all in the cache. */
-static aur_texel_view other_light(const aur_cached_light *known, const aur_path_group *g, size_t lane) {
+static aur_texel_view other_light(const aur_cached_light *cache, const aur_path_group *g, size_t lane) {
     const aur_surface *const surface = &g->surfaces[lane];
     const aur_ray ray = aur_packet_ray(&g->packet, lane);
     const aur_hit hit = aur_packet_hit(g->scene, &g->packet, lane);
@@ -105,25 +105,25 @@ static aur_texel_view other_light(const aur_cached_light *known, const aur_path_
     const unsigned kinds = aur_bsdf_scatters(surface->bsdf, shading.view.z);
     if (kinds == 0 || (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) != 0)
         return (aur_texel_view){0};
-    if (known->map != NULL)
-        return aur_irradiance_view(known->map, g->scene, &hit, surface, view);
-    const aur_radiosity_scene *const scene = &known->solution->scene;
+    if (cache->map != NULL)
+        return aur_irradiance_view(cache->map, g->scene, &hit, surface, view);
+    const aur_radiosity_scene *const scene = &cache->solution->scene;
     const uint32_t triangle = aur_radiosity_triangle_at(scene, &hit);
     const bool front = aur_vector_dot(ray.direction, scene->triangles[triangle].frame.z) < 0.0f;
     const uint32_t patch = front ? triangle : scene->triangles[triangle].back;
     if (patch == AUR_NO_PATCH)
         return (aur_texel_view){0};
     const aur_vector albedo = aur_radiosity_albedo(scene, triangle, front, &ray, &hit);
-    return (aur_texel_view){aur_vector_multiply(albedo, known->exitances[patch]),
+    return (aur_texel_view){aur_vector_multiply(albedo, cache->exitances[patch]),
                             (float)scene->areas[triangle]};
 }
 
-void aur_cached_light_add(const aur_cached_light *known, aur_path_group *g, uint32_t depth,
+void aur_cached_light_add(const aur_cached_light *cache, aur_path_group *g, uint32_t depth,
                           uint32_t *pending) {
     for (uint32_t rest = g->alive & *pending; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         const bool plain = aur_has_lane(g->plain, k);
-        const aur_texel_view found = plain ? plain_light(known, g, k) : other_light(known, g, k);
+        const aur_texel_view found = plain ? plain_light(cache, g, k) : other_light(cache, g, k);
         const float distance = g->packet.query.ray.tfar[k];
         if (!(distance * distance >= REACH * REACH * found.area) || found.area == 0.0f)
             continue;

@@ -121,10 +121,10 @@ static double projected_angle(size_t count, const double (*corners)[3], const do
     if (!(aur_polygon_plane(count, (const double(*)[3])moved, &facing) > 0.0) || !(facing.offset < 0.0))
         return 0.0; /* the origin, where the sensor is, is behind the polygon or in its plane */
     const aur_plane horizon = {{normal[0], normal[1], normal[2]}, 0.0};
-    const size_t kept = aur_polygon_clip(count, (const double(*)[3])moved, &horizon, cut);
+    const size_t clipped = aur_polygon_clip(count, (const double(*)[3])moved, &horizon, cut);
     double sum = 0.0;
-    for (size_t i = 0; i < kept; ++i) {
-        const double *const a = cut[i], *const b = cut[(i + 1) % kept];
+    for (size_t i = 0; i < clipped; ++i) {
+        const double *const a = cut[i], *const b = cut[(i + 1) % clipped];
         double cross[3];
         aur_cross3(a, b, cross);
         const double size = aur_length3(cross);

@@ -31,14 +31,14 @@ static bool find_corners(const aur_scene *scene, const aur_hit *hit, double corn
     const double *const origin = instance != NULL ? instance->group->origin : scene->origin;
     for (size_t c = 0; c < 3; ++c) {
         const size_t vertex = mesh->indices[3 * (size_t)hit->primitive + c];
-        double own[3];
+        double local[3];
         for (size_t d = 0; d < 3; ++d)
-            own[d] = mesh->points != NULL ? mesh->points[3 * vertex + d] - origin[d]
-                                          : (double)mesh->positions[3 * vertex + d];
+            local[d] = mesh->points != NULL ? mesh->points[3 * vertex + d] - origin[d]
+                                            : (double)mesh->positions[3 * vertex + d];
         if (instance != NULL)
-            aur_transform_point(&instance->to_world, own, corners[c]);
+            aur_transform_point(&instance->to_world, local, corners[c]);
         else
-            memcpy(corners[c], own, sizeof own);
+            memcpy(corners[c], local, sizeof local);
     }
     return mesh->points != NULL;
 }

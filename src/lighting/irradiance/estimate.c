@@ -31,7 +31,7 @@ typedef struct work {
     const aur_scene *scene;
     aur_sampler *sampler;
     aur_closed_lights lights;
-    aur_cached_light known;
+    aur_cached_light cache;
     size_t level_count;
     aur_sensor_rule rules[LEVELS]; /* one per level, each with more directions than the previous one */
     aur_irradiance *results;
@@ -148,13 +148,13 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
                             w->sensors->normals + 3 * sensor, w->options->seed, shares, &surface_point);
     double values[REPLICATES][VALUES], sums[REPLICATES * VALUES] = {0};
     aur_levels levels = {.replicates = REPLICATES, .values = VALUES, .sums = sums};
-    const bool knows = w->known.map != NULL || w->known.solution != NULL;
+    const bool has_cache = w->cache.map != NULL || w->cache.solution != NULL;
     uint64_t dark = 0;
     aur_irradiance found = {.on_surface = surface_point.on_surface, .doubtful = surface_point.doubtful};
     for (size_t level = 0; level < w->level_count; ++level) {
         aur_sensor_sums sensor_sums;
-        aur_sensor_trace(group, &w->rules[level], &surface_point, knows ? &w->known : NULL, (uint32_t)level,
-                         &sensor_sums);
+        aur_sensor_trace(group, &w->rules[level], &surface_point, has_cache ? &w->cache : NULL,
+                         (uint32_t)level, &sensor_sums);
         find_values(w, &sensor_sums, values);
         aur_levels_add(&levels, w->rules[level].count, values[0]);
         dark += sensor_sums.dark;
@@ -215,7 +215,7 @@ static aur_result run(work *w, aur_error *error) {
     if (result == AUR_OK)
         result = aur_closed_lights_create(w->scene, &w->lights, error);
     if (result == AUR_OK)
-        result = aur_cached_light_create(w->scene, o, &w->known, error);
+        result = aur_cached_light_create(w->scene, o, &w->cache, error);
     if (result == AUR_OK)
         result = aur_sampler_create("sobol", w->rules[w->level_count - 1].count, NULL, &w->sampler, error);
     if (result == AUR_OK) {
@@ -260,7 +260,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     for (size_t i = 0; i < w.level_count; ++i)
         aur_sensor_rule_release(&w.rules[i]);
     aur_closed_lights_release(&w.lights);
-    aur_cached_light_release(&w.known);
+    aur_cached_light_release(&w.cache);
     aur_sampler_destroy(w.sampler);
     free(w.path.classes);
     return result;

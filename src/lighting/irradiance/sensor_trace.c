@@ -32,8 +32,8 @@ static float shape_rounding(const aur_scene *scene, const aur_hit *hit, aur_vect
 
 /* Traces a probe ray from -reach to reach along an axis. The hit may be a flat emitter above a ground whose
  * distance is less exact than their gap. */
-static void look_along(const aur_scene *scene, const aur_sensor_point *surface_point, aur_vector axis,
-                       float reach, const footing *before, footing *found) {
+static void probe_along(const aur_scene *scene, const aur_sensor_point *surface_point, aur_vector axis,
+                        float reach, const footing *before, footing *found) {
     enum { MOST_HITS = 16 };
     aur_ray ray = {aur_vector_add_scaled(surface_point->position, -reach, axis), 0.0f, axis, 2.0f * reach};
     aur_hit hit;
@@ -59,7 +59,7 @@ static bool move_off(const aur_scene *scene, float reach, footing *before, aur_s
     const aur_vector axes[] = {frame->z, frame->x, frame->y};
     footing found = {.height = INFINITY};
     for (size_t i = 0; i < 3; ++i)
-        look_along(scene, surface_point, axes[i], reach, before, &found);
+        probe_along(scene, surface_point, axes[i], reach, before, &found);
     if (!(found.height < INFINITY))
         return false;
     const float side = aur_vector_dot(found.normal, frame->z) < -1e-3f ? -1.0f : 1.0f;
@@ -189,7 +189,7 @@ static void draw_pair(const aur_path_group *g, uint32_t pair, float *u, float *v
 static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
                        aur_sensor_sums *sensor_sums) {
     float choice[AUR_PACKET_SIZE] = {0}, u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE];
-    double light[AUR_PACKET_SIZE][3], known[AUR_PACKET_SIZE];
+    double light[AUR_PACKET_SIZE][3], closed_shares[AUR_PACKET_SIZE];
     uint32_t drawn_lanes = 0, sky = 0;
     if (g->chooses)
         draw_pair(g, AUR_PAIR_FILTER, choice, unused);
@@ -206,7 +206,7 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
         const aur_vertex_samples samples = {1.0f, share >= 0.0f ? 0.0f : 1.0f};
         if (!aur_vertex_irradiance(&reference, samples, &drawn, &shadow))
             continue;
-        known[k] = share > 0.0f ? (double)share : 0.0;
+        closed_shares[k] = share > 0.0f ? (double)share : 0.0;
         aur_vector_to_doubles(shadow.radiance, light[k]);
         aur_packet_set(&g->shadows, k, &shadow.ray);
         drawn_lanes |= 1u << k;
@@ -225,7 +225,7 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
             aur_vector_to_doubles(aur_path_group_passed(g, k, farthest[k], 0), left);
         double brought[3];
         for (size_t c = 0; c < 3; ++c)
-            brought[c] = (left[c] - known[k]) * light[k][c];
+            brought[c] = (left[c] - closed_shares[k]) * light[k][c];
         if (aur_has_lane(sky, k))
             add_beyond(g->scene, aur_packet_ray(&g->shadows, k).direction, brought, sensor_sums->sums[k]);
         else
@@ -270,10 +270,10 @@ static void add_parts(const aur_path_group *g, const size_t *parts, double (*see
 /* The contribution of direction `index`; lanes begin with no light. Light through thin panes counts as direct
  * light. */
 static void add_direction(aur_path_group *g, const aur_sensor_point *surface_point,
-                          const aur_cached_light *known, aur_sensor_sums *sensor_sums) {
+                          const aur_cached_light *cache, aur_sensor_sums *sensor_sums) {
     double seen[AUR_PACKET_SIZE][3] = {{0.0}};
     size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
-    uint32_t unscattered = g->alive, pending = known != NULL ? g->alive : 0;
+    uint32_t unscattered = g->alive, pending = cache != NULL ? g->alive : 0;
     g->sensor.known = surface_point->shares;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         reflected[k] = REFLECTED;
@@ -288,7 +288,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_point *surface_poi
         if (g->data->max_depth == depth || g->alive == 0)
             break;
         if (pending != 0)
-            aur_cached_light_add(known, g, depth, &pending);
+            aur_cached_light_add(cache, g, depth, &pending);
         if (g->alive == 0)
             break;
         aur_path_group_scatter(g, depth);
@@ -303,7 +303,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_point *surface_poi
 }
 
 void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_point *surface_point,
-                      const aur_cached_light *known, uint32_t level, aur_sensor_sums *sensor_sums) {
+                      const aur_cached_light *cache, uint32_t level, aur_sensor_sums *sensor_sums) {
     *sensor_sums = (aur_sensor_sums){0};
     for (size_t k = 0; k < AUR_PACKET_SIZE && surface_point->covered; ++k)
         memcpy(sensor_sums->sums[k][DIRECT], surface_point->closed, sizeof surface_point->closed);
@@ -322,7 +322,7 @@ void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_
     for (size_t i = 0; i < rule->count; ++i) {
         g->index = (uint32_t)i;
         set_rays(g, rule, i, surface_point, shifts);
-        add_direction(g, surface_point, known, sensor_sums);
+        add_direction(g, surface_point, cache, sensor_sums);
         if (g->has_lights)
             add_lights(g, surface_point, &from_lights);
     }

@@ -24,12 +24,12 @@ typedef struct aur_cached_light {
 /* Computes the cache that `options` (with defaults filled in) select; nothing for path tracing. Errors:
  * UNSUPPORTED for scenes that photons or radiosity do not support, CANCELLED, MEMORY. */
 aur_result aur_cached_light_create(const aur_scene *scene, const aur_irradiance_options *options,
-                                   aur_cached_light *known, aur_error *error);
-void aur_cached_light_release(aur_cached_light *known);
+                                   aur_cached_light *cache, aur_error *error);
+void aur_cached_light_release(aur_cached_light *cache);
 
 /* Called at the hits of the group at `depth`, before scattering: the lanes in *pending, which have not used
  * the cache yet, add the cached light; most of them end. */
-void aur_cached_light_add(const aur_cached_light *known, aur_path_group *group, uint32_t depth,
+void aur_cached_light_add(const aur_cached_light *cache, aur_path_group *group, uint32_t depth,
                           uint32_t *pending);
 
 /* The directions of sensors, as points on a torus: the azimuth, and the squared sine of the polar angle, in
@@ -111,9 +111,9 @@ typedef struct aur_sensor_sums {
     uint64_t dark; /* directions that hit a surface's back that scatters nothing */
 } aur_sensor_sums;
 
-/* Means over the directions of the rule. `known` (the cached light) may be NULL. `level` selects independent
+/* Means over the directions of the rule. `cache` (the cached light) may be NULL. `level` selects independent
  * random numbers. The contributions passed to group->sensor.from_sky add up to the irradiance of the sky
  * times rule->count / pi. */
 void aur_sensor_trace(aur_path_group *group, const aur_sensor_rule *rule,
-                      const aur_sensor_point *surface_point, const aur_cached_light *known, uint32_t level,
+                      const aur_sensor_point *surface_point, const aur_cached_light *cache, uint32_t level,
                       aur_sensor_sums *sensor_sums);

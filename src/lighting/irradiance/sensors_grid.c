@@ -42,9 +42,9 @@ static aur_result add_triangle(grid *self, const double a[3], const double b[3],
 
 /* --- surfaces */
 
-/* X0,Y0,X1,Y1,H with H along up, or a corner and two edges. *known: whether the target is such a list of
+/* X0,Y0,X1,Y1,H with H along up, or a corner and two edges. *is_numbers: whether the target is such a list of
  * numbers. */
-static aur_result take_rectangle(grid *self, bool *known) {
+static aur_result take_rectangle(grid *self, bool *is_numbers) {
     double n[9];
     size_t count = 0;
     const char *at = self->options.target;
@@ -53,8 +53,8 @@ static aur_result take_rectangle(grid *self, bool *known) {
         ++at;
     }
     count += at != NULL && *at == '\0';
-    *known = at != NULL && *at == '\0' && (count == 5 || count == 9);
-    if (!*known)
+    *is_numbers = at != NULL && *at == '\0' && (count == 5 || count == 9);
+    if (!*is_numbers)
         return AUR_OK;
     double corner[4][3];
     const bool z_up = fabs(self->options.up[2]) >= fabs(self->options.up[1]);
@@ -388,10 +388,10 @@ aur_result aur_sensors_grid(const aur_scene *scene, const aur_grid_options *give
     if (!(aur_normalize3(up) > 0.0))
         up[scene->document.from_radiance ? 2 : 1] = 1.0;
     aur_sensors *const made = calloc(1, sizeof *made);
-    bool known = false;
-    result = made != NULL ? take_rectangle(&self, &known) : aur_fail_memory(error);
+    bool is_numbers = false;
+    result = made != NULL ? take_rectangle(&self, &is_numbers) : aur_fail_memory(error);
     const bool mesh = aur_mesh_format_of_name(self.options.target) < AUR_MESH_FORMAT_COUNT;
-    if (result == AUR_OK && !known)
+    if (result == AUR_OK && !is_numbers)
         result = mesh ? take_mesh(&self) : take_shapes(&self);
     if (result == AUR_OK)
         result = set_frame(&self);

@@ -77,17 +77,18 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
     }
     work->rows[row].closed_pairs += closed->count;
     const aur_ray_hits_row *const mine = &ray_hits->rows[i];
-    size_t own = 0, theirs = ray_hits->starts[i], known = 0;
-    while (own < mine->count || theirs < ray_hits->starts[i + 1]) {
-        const uint32_t a = own < mine->count ? mine->patches[own] : UINT32_MAX;
-        const uint32_t b = theirs < ray_hits->starts[i + 1] ? ray_hits->sources[theirs] : UINT32_MAX;
+    size_t out_index = 0, in_index = ray_hits->starts[i], closed_index = 0;
+    while (out_index < mine->count || in_index < ray_hits->starts[i + 1]) {
+        const uint32_t a = out_index < mine->count ? mine->patches[out_index] : UINT32_MAX;
+        const uint32_t b = in_index < ray_hits->starts[i + 1] ? ray_hits->sources[in_index] : UINT32_MAX;
         const uint32_t k = a < b ? a : b;
-        const uint16_t *const out = a == k ? &mine->hits[width * own++] : NULL;
+        const uint16_t *const out = a == k ? &mine->hits[width * out_index++] : NULL;
         const uint16_t *const in =
-            b == k ? &ray_hits->rows[k].hits[width * (size_t)ray_hits->places[theirs++]] : NULL;
-        while (known < closed->count && closed->patches[known] < k)
-            ++known;
-        if ((known < closed->count && closed->patches[known] == k) || !aur_pair_stands_with(facets, i, k))
+            b == k ? &ray_hits->rows[k].hits[width * (size_t)ray_hits->places[in_index++]] : NULL;
+        while (closed_index < closed->count && closed->patches[closed_index] < k)
+            ++closed_index;
+        if ((closed_index < closed->count && closed->patches[closed_index] == k) ||
+            !aur_pair_stands_with(facets, i, k))
             continue;
         if (!any_hit(out, width) && !any_hit(in, width))
             continue; /* already freed */

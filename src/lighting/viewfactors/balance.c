@@ -87,7 +87,7 @@ static double scale_of_entries(const aur_exchange *g) {
  * back, counts as one additional randomisation. */
 static void weigh_losses(const aur_exchange *g, double scale, const double *losses, const double *half_widths,
                          double *weights) {
-    const double own = (double)(g->randomizations - 1) / (double)g->randomizations;
+    const double row_weight = (double)(g->randomizations - 1) / (double)g->randomizations;
     double squares = 0.0, counts = 0.0;
     for (size_t a = 0; a < g->rows; ++a) {
         squares += half_widths[a] * half_widths[a];
@@ -95,10 +95,10 @@ static void weigh_losses(const aur_exchange *g, double scale, const double *loss
     }
     for (size_t a = 0; a < g->rows; ++a) {
         const double count = losses[a] * g->areas[a];
-        weights[a] =
-            squares > 0.0 && scale > 0.0
-                ? (own * half_widths[a] * half_widths[a] + (1.0 - own) * squares / counts * count) / scale
-                : count;
+        weights[a] = squares > 0.0 && scale > 0.0 ? (row_weight * half_widths[a] * half_widths[a] +
+                                                     (1.0 - row_weight) * squares / counts * count) /
+                                                        scale
+                                                  : count;
     }
 }
 

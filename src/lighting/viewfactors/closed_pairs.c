@@ -109,13 +109,13 @@ static bool find_row(const finding *work, size_t i) {
     }
     /* Both lists are sorted: patches hit by this patch, and patches whose rays hit this one. */
     const aur_ray_hits_row *const row = &ray_hits->rows[i];
-    size_t own = 0, theirs = ray_hits->starts[i];
-    while (own < row->count || theirs < ray_hits->starts[i + 1]) {
-        const uint32_t a = own < row->count ? row->patches[own] : UINT32_MAX;
-        const uint32_t b = theirs < ray_hits->starts[i + 1] ? ray_hits->sources[theirs] : UINT32_MAX;
+    size_t out_index = 0, in_index = ray_hits->starts[i];
+    while (out_index < row->count || in_index < ray_hits->starts[i + 1]) {
+        const uint32_t a = out_index < row->count ? row->patches[out_index] : UINT32_MAX;
+        const uint32_t b = in_index < ray_hits->starts[i + 1] ? ray_hits->sources[in_index] : UINT32_MAX;
         const uint32_t k = a < b ? a : b;
-        own += a == k;
-        theirs += b == k;
+        out_index += a == k;
+        in_index += b == k;
         if (!try_pair(work, i, k, &capacity))
             return false;
     }

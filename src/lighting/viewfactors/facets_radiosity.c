@@ -9,9 +9,9 @@
 #include "points/base/error.h"
 #include "points/base/parallel.h"
 
-/* Few rays go to the sun, and the sunlit region has sharp edges, so they start at SUN_PLACES times as many
+/* Few rays go to the sun, and the sunlit region has sharp edges, so they start at SUN_ORIGINS times as many
  * origins. */
-enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16, SUN_PLACES = 4 };
+enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16, SUN_ORIGINS = 4 };
 
 /* With a matrix the series ends when the next reflection is below this fraction of the total. */
 static const double SMALLEST_CHANGE = 1e-7;
@@ -26,7 +26,7 @@ typedef struct solution {
     /* Patterns with successively half as many rays, down to FEWEST_RAYS. */
     aur_facet_pattern patterns[LEVELS];
     size_t level_count;
-    aur_facet_pattern sun_places;
+    aur_facet_pattern sun_origins;
     double smallest; /* fraction of the light at which the series ends */
     /* Per row: the result of one randomisation, and sums over randomisations. */
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
@@ -120,7 +120,7 @@ static aur_result trace_sun(solution *s, aur_error *error) {
     aur_result result = s->sun != NULL ? AUR_OK : aur_fail_memory(error);
     for (size_t r = 0; r < count && result == AUR_OK; ++r) {
         place_product(s, r, true, 0.0, 1.0);
-        result = aur_facet_product(s->facets, &s->sun_places, r + count * (MOST_REFLECTIONS + 1), 1,
+        result = aur_facet_product(s->facets, &s->sun_origins, r + count * (MOST_REFLECTIONS + 1), 1,
                                    &s->parallel, s->light->sun, NULL, &s->sun[rows * r], NULL, error);
         for (size_t i = 0; i < rows; ++i)
             s->sun[rows * count + i] += s->sun[rows * r + i] / (double)count;
@@ -193,14 +193,14 @@ static aur_result check(const aur_facets *facets, const aur_view_factors *factor
     double emission = light->emission;
     for (size_t i = 0; i < facets->row_count; ++i) {
         const double reflectance = light->reflectances != NULL ? light->reflectances[i] : light->reflectance,
-                     own = light->emissions != NULL ? light->emissions[i] : light->emission;
+                     row_emission = light->emissions != NULL ? light->emissions[i] : light->emission;
         if (!(reflectance >= 0.0 && reflectance <= 1.0))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "the reflectance must be in [0,1], not %g",
                             reflectance);
-        if (!(own >= 0.0 && own < INFINITY))
+        if (!(row_emission >= 0.0 && row_emission < INFINITY))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "emissions must be finite and not negative, not %g",
-                            own);
-        emission = fmax(emission, own);
+                            row_emission);
+        emission = fmax(emission, row_emission);
     }
     if (!(light->sky >= 0.0 && light->sky < INFINITY && sun < INFINITY))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -221,9 +221,9 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
         *parts[i] = numbers + i * s->rows;
     for (size_t i = 0; i < s->rows; ++i) {
         const aur_facets_light *const light = s->light;
-        const double own = light->emissions != NULL ? light->emissions[i] : light->emission;
+        const double row_emission = light->emissions != NULL ? light->emissions[i] : light->emission;
         s->reflectances[i] = light->reflectances != NULL ? light->reflectances[i] : light->reflectance;
-        s->emissions[i] = s->facets->row_areas[i] > 0.0 ? own : 0.0;
+        s->emissions[i] = s->facets->row_areas[i] > 0.0 ? row_emission : 0.0;
         s->highest = fmax(s->highest, s->reflectances[i]);
     }
     s->smallest =
@@ -233,7 +233,7 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
     aur_result result = AUR_OK;
     if (aur_length3(s->light->sun) > 0.0)
         result =
-            aur_facet_pattern_create(options->set, SUN_PLACES * rays, options->seed, &s->sun_places, error);
+            aur_facet_pattern_create(options->set, SUN_ORIGINS * rays, options->seed, &s->sun_origins, error);
     while (result == AUR_OK && s->level_count < LEVELS && (s->level_count == 0 || rays >= FEWEST_RAYS)) {
         result =
             aur_facet_pattern_create(options->set, rays, options->seed, &s->patterns[s->level_count], error);
@@ -262,7 +262,7 @@ static void write(const solution *s, double student, const aur_facets_radiositie
 
 aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_factors *factors,
                                   const aur_view_factors_options *given, const aur_facets_light *sources,
-                                  const aur_facets_radiosities *wanted, aur_error *error) {
+                                  const aur_facets_radiosities *requested, aur_error *error) {
     aur_view_factors_options options;
     aur_facets_light light = {.size = sizeof light};
     aur_facets_radiosities made = {.size = sizeof made};
@@ -271,7 +271,7 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
     if (result == AUR_OK)
         result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
     if (result == AUR_OK)
-        result = aur_options_read(wanted, sizeof made, &made, "aur_facets_radiosities", error);
+        result = aur_options_read(requested, sizeof made, &made, "aur_facets_radiosities", error);
     if (result == AUR_OK)
         result = check(facets, factors, &light, error);
     if (result != AUR_OK)
@@ -296,7 +296,7 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
         write(&s, aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence), &made);
     for (size_t i = 0; i < s.level_count; ++i)
         aur_facet_pattern_release(&s.patterns[i]);
-    aur_facet_pattern_release(&s.sun_places);
+    aur_facet_pattern_release(&s.sun_origins);
     free(s.sun);
     free(numbers);
     return result;
@@ -305,9 +305,9 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
 aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_factors *factors,
                                       const aur_view_factors_options *options, const aur_facets_light *light,
                                       double *radiosity, double *half_widths, double *sky, aur_error *error) {
-    const aur_facets_radiosities wanted = {
-        .size = sizeof wanted, .radiosity = radiosity, .half_widths = half_widths, .sky = sky};
-    return aur_view_factors_solve(facets, factors, options, light, &wanted, error);
+    const aur_facets_radiosities requested = {
+        .size = sizeof requested, .radiosity = radiosity, .half_widths = half_widths, .sky = sky};
+    return aur_view_factors_solve(facets, factors, options, light, &requested, error);
 }
 
 aur_result aur_facets_radiosities_init(aur_facets_radiosities *radiosities, aur_error *error) {

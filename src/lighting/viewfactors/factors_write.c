@@ -69,8 +69,9 @@ static void write_view3d(const aur_view_factors *f, FILE *stream) {
 }
 
 /* Opens one of uDALES's files, with the same suffix as the first one. */
-static aur_result write_beside(const aur_view_factors *f, const char *path, const char *ending,
-                               const char *name, const char *head, const double *numbers, aur_error *error) {
+static aur_result write_companion(const aur_view_factors *f, const char *path, const char *ending,
+                                  const char *name, const char *head, const double *numbers,
+                                  aur_error *error) {
     const char *const slash = strrchr(path, '/');
     const int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
     const size_t size = strlen(path) + strlen(name) + 1;
@@ -107,9 +108,9 @@ static aur_result write_udales(const aur_view_factors *f, const char *path, aur_
     result = aur_file_commit(&writer, error);
     const char *const ending = name + sizeof first - 1;
     if (result == AUR_OK)
-        result = write_beside(f, path, ending, "svf.inp", "sky view factors", f->sky, error);
+        result = write_companion(f, path, ending, "svf.inp", "sky view factors", f->sky, error);
     if (result == AUR_OK)
-        result = write_beside(f, path, ending, "facetarea.inp", "area of facets", f->areas, error);
+        result = write_companion(f, path, ending, "facetarea.inp", "area of facets", f->areas, error);
     return result;
 }
 

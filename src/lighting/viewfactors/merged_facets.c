@@ -48,16 +48,16 @@ static int direction_of(const side *s) {
 }
 
 static bool is_longest(const aur_merged_facet *polygon, size_t place) {
-    double longest = 0.0, own = 0.0;
+    double longest = 0.0, side_length = 0.0;
     for (size_t i = 0; i < polygon->count; ++i) {
         double edge[3];
         for (int d = 0; d < 3; ++d)
             edge[d] = polygon->corners[(i + 1) % polygon->count][d] - polygon->corners[i][d];
         const double length = aur_dot3(edge, edge);
         longest = fmax(longest, length);
-        own = i == place ? length : own;
+        side_length = i == place ? length : side_length;
     }
-    return own > longest * (1.0 - 1e-6);
+    return side_length > longest * (1.0 - 1e-6);
 }
 
 /* Positive if the path a, b, c turns left: twice the triangle's area over the distance from a to c. */

@@ -70,12 +70,12 @@ static aur_result read_polygon(const char *which, size_t count, const double *co
 
 /* Clips the part behind the plane. */
 static aur_result cut(polygon *p, const aur_plane *plane, aur_error *error) {
-    double(*const kept)[3] = malloc((p->count + 2) * sizeof *kept);
-    if (kept == NULL)
+    double(*const clipped)[3] = malloc((p->count + 2) * sizeof *clipped);
+    if (clipped == NULL)
         return aur_fail_memory(error);
-    p->count = aur_polygon_clip(p->count, (const double(*)[3])p->corners, plane, kept);
+    p->count = aur_polygon_clip(p->count, (const double(*)[3])p->corners, plane, clipped);
     free(p->corners);
-    p->corners = kept;
+    p->corners = clipped;
     return AUR_OK;
 }
 

@@ -216,8 +216,9 @@ static bool is_covered(const aur_facets *facets, size_t patch, const float place
            SIZE_MAX;
 }
 
-static void look(const aur_sky_slices *s, size_t patch_index, const viewer *v,
-                 const aur_slice_sample *samples, aur_slice_kernel *kernel, double *wholes, double *sky) {
+static void trace_slices(const aur_sky_slices *s, size_t patch_index, const viewer *v,
+                         const aur_slice_sample *samples, aur_slice_kernel *kernel, double *wholes,
+                         double *sky) {
     const size_t count = s->count * s->randomizations;
     const aur_slice_patch *const patch = &v->patch;
     for (size_t r = 0; r < s->randomizations; ++r)
@@ -267,7 +268,7 @@ static aur_result measure_block(void *context, size_t index) {
         make_viewer(s, i, &v);
         aur_slice_samples_draw(&v.patch, s->randomizations, s->count, s->points,
                                aur_hash3(s->seed, UINT64_C(0x736c69636573), i), samples, samples + count);
-        look(s, i, &v, samples + count, work->kernel, wholes, &work->sky[s->randomizations * i]);
+        trace_slices(s, i, &v, samples + count, work->kernel, wholes, &work->sky[s->randomizations * i]);
     }
     free(samples);
     free(wholes);

@@ -15,8 +15,8 @@ enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 2048, DEFAULT_RANDOMIZATIONS = 8, 
 /* The sky dominates the error of a city's radiosities: three half planes for two rays reach .1 % fastest
  * (docs/view-factors.md). */
 static size_t usual_half_planes(const aur_view_factors_options *options) {
-    const size_t most = MOST_RAYS * options->randomizations, wanted = (3 * options->rays + 1) / 2;
-    return wanted < most ? wanted : most;
+    const size_t most = MOST_RAYS * options->randomizations, requested = (3 * options->rays + 1) / 2;
+    return requested < most ? requested : most;
 }
 
 aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
@@ -270,23 +270,24 @@ void aur_view_factors_destroy(aur_view_factors *factors) {
 
 aur_result aur_view_factors_get_matrix(const aur_view_factors *factors, aur_view_factors_matrix *matrix,
                                        aur_error *error) {
-    const aur_view_factors_matrix own = {.size = sizeof own,
-                                         .rows = factors->rows,
-                                         .starts = factors->starts,
-                                         .columns = factors->columns,
-                                         .values = factors->values,
-                                         .half_widths = factors->half_widths,
-                                         .areas = factors->areas,
-                                         .sky = factors->sky,
-                                         .sky_half_widths = factors->sky_half_widths,
-                                         .back = factors->back};
-    return aur_description_write(&own, sizeof own, matrix, "aur_view_factors_matrix", error);
+    const aur_view_factors_matrix computed = {.size = sizeof computed,
+                                              .rows = factors->rows,
+                                              .starts = factors->starts,
+                                              .columns = factors->columns,
+                                              .values = factors->values,
+                                              .half_widths = factors->half_widths,
+                                              .areas = factors->areas,
+                                              .sky = factors->sky,
+                                              .sky_half_widths = factors->sky_half_widths,
+                                              .back = factors->back};
+    return aur_description_write(&computed, sizeof computed, matrix, "aur_view_factors_matrix", error);
 }
 
 aur_result aur_view_factors_get_description(const aur_view_factors *factors,
                                             aur_view_factors_description *description, aur_error *error) {
-    const aur_view_factors_description *const own = &factors->description;
-    return aur_description_write(own, sizeof *own, description, "aur_view_factors_description", error);
+    const aur_view_factors_description *const computed = &factors->description;
+    return aur_description_write(computed, sizeof *computed, description, "aur_view_factors_description",
+                                 error);
 }
 
 aur_result aur_view_factors_options_init(aur_view_factors_options *options, aur_error *error) {

@@ -1,5 +1,4 @@
-/* What the programs of tests/house/calls share. They know the public headers alone, and are linked with the
- * shared libraries alone. */
+/* Shared by the programs of tests/house/calls. They use only the public headers and the shared libraries. */
 #pragma once
 
 #include <aureole/core.h>
@@ -9,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ends the program where a call did not do what it should. */
+/* Ends the program if a call did not behave as expected. */
 static inline void require(bool good, const char *what) {
     if (good)
         return;
@@ -22,7 +21,7 @@ static inline void accept(aur_result result, const aur_error *error) {
     require(result == AUR_OK, error->message);
 }
 
-/* A call that must fail, and say why. */
+/* A call that must fail with a message. */
 static inline void refuse(aur_result result, aur_result expected, aur_error *error) {
     if (result != expected)
         fprintf(stderr, "'%s' came in the place of '%s': ", aur_result_string(result),

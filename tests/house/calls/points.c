@@ -1,5 +1,5 @@
-/* Calls each function of pointset.h, sphere.h and quality.h, most of them with bad input too, and those of
- * quadrature.h that the tests of that room do not call. */
+/* Calls each function of pointset.h, sphere.h and quality.h, most of them also with bad input, and those of
+ * quadrature.h that its own tests do not call. */
 #include <aureole/estimate.h>
 #include <aureole/exact.h>
 #include <aureole/integrate.h>
@@ -189,7 +189,7 @@ static void directions(void) {
     aur_directions_destroy(set);
 }
 
-/* Made, written, read again and measured. */
+/* Generated, written, read back and measured. */
 static void points_and_measures(void) {
     aur_directions_options options = {.size = sizeof options};
     aur_directions_options_init(COUNT, AUR_DOMAIN_SPHERE, &options, NULL);
@@ -277,8 +277,7 @@ static void estimates(void) {
     refuse(aur_estimate(mean, NULL, &options, &found, NULL, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
-/* Functions that fill options give the defaults, and keep the caller's size; a size that is not set is
- * refused. */
+/* Functions that fill options set the defaults, and preserve the caller's size; an unset size is rejected. */
 static void defaults(void) {
     aur_estimate_options estimate = {.size = sizeof estimate};
     aur_exact_options exact = {.size = sizeof exact};

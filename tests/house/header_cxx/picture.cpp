@@ -1,4 +1,4 @@
-// render.hpp: pictures, scenes, renders.
+/* render.hpp: images, scenes, renders. */
 #include <aureole-render/render.hpp>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-/* Points of aureole_sampling.h beside those of libaureole, to the last bit; C99 and C++. */
+/* Points of aureole_sampling.h compared with those of libaureole, bit by bit; C99 and C++. */
 #include <aureole/sphere.h>
 #include <aureole_sampling.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 
 #include "points/base/array.h"
 
-static void grows_and_keeps_what_it_holds(void **state) {
+static void grows_and_preserves_its_contents(void **state) {
     (void)state;
     double *items = NULL;
     size_t capacity = 0, moves = 0;
@@ -40,7 +40,7 @@ static void refuses_what_a_size_cannot_count(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(grows_and_keeps_what_it_holds),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(grows_and_preserves_its_contents),
                                        cmocka_unit_test(refuses_what_a_size_cannot_count)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

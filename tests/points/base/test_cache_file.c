@@ -66,7 +66,7 @@ static int remove_folder(void **state) {
     return failed;
 }
 
-static bool is_kept(const char *key, const char *wanted) {
+static bool is_stored(const char *key, const char *wanted) {
     size_t size;
     char *const data = aur_cache_file_read("kind", key, &size);
     const bool same = data != NULL && size == strlen(wanted) && strcmp(data, wanted) == 0;
@@ -74,18 +74,18 @@ static bool is_kept(const char *key, const char *wanted) {
     return same;
 }
 
-static void keeps_by_key(void **state) {
+static void stores_by_key(void **state) {
     (void)state;
     size_t size = 1;
     assert_null(aur_cache_file_read("kind", "a", &size));
     aur_cache_file_write("kind", "a", 5, "first");
     aur_cache_file_write("kind", "b", 0, "");
-    assert_true(is_kept("a", "first"));
-    assert_true(is_kept("b", ""));
-    assert_false(is_kept("c", ""));
+    assert_true(is_stored("a", "first"));
+    assert_true(is_stored("b", ""));
+    assert_false(is_stored("c", ""));
     assert_null(aur_cache_file_read("other", "a", &size));
     aur_cache_file_write("kind", "a", 6, "second");
-    assert_true(is_kept("a", "second"));
+    assert_true(is_stored("a", "second"));
 }
 
 static char found[512];
@@ -110,7 +110,7 @@ static void cut(const char *file) {
     assert_int_equal(truncate(file, (off_t)damage_at), 0);
 }
 
-/* Each byte changed, and each cut: as if it were not there, and it can be kept again. */
+/* Each byte changed, and each truncation: treated as missing, and can be stored again. */
 static void damaged_files_are_not_there(void **state) {
     const folder *const f = *state;
     aur_cache_file_write("kind", "key", 9, "some data");
@@ -120,22 +120,22 @@ static void damaged_files_are_not_there(void **state) {
     for (size_t i = 0; i < (size_t)status.st_size; ++i) {
         damage_at = i;
         damage(found);
-        assert_false(is_kept("key", "some data"));
+        assert_false(is_stored("key", "some data"));
         damage(found); /* as it was */
-        assert_true(is_kept("key", "some data"));
+        assert_true(is_stored("key", "some data"));
         cut(found);
-        assert_false(is_kept("key", "some data"));
+        assert_false(is_stored("key", "some data"));
         aur_cache_file_write("kind", "key", 9, "some data");
-        assert_true(is_kept("key", "some data"));
+        assert_true(is_stored("key", "some data"));
     }
-    /* What is under the name of another key is none of it. */
+    /* A file stored under the name of another key is rejected. */
     char name[512];
     snprintf(name, sizeof name, "%s", found);
     remove_file(name);
     aur_cache_file_write("kind", "other", 9, "some data");
     each_file(f->cache, find);
     assert_int_equal(rename(found, name), 0);
-    assert_false(is_kept("key", "some data"));
+    assert_false(is_stored("key", "some data"));
 }
 
 static void nothing_where_nothing_can_be(void **state) {
@@ -144,7 +144,7 @@ static void nothing_where_nothing_can_be(void **state) {
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; ++i) {
         setenv("AUREOLE_CACHE", folders[i], 1);
         aur_cache_file_write("kind", "a", 5, "first");
-        assert_false(is_kept("a", "first"));
+        assert_false(is_stored("a", "first"));
     }
 }
 
@@ -191,7 +191,7 @@ static void oldest_go_first(void **state) {
         aur_cache_file_write("kind", key, MANY - 100, data);
     }
     nanosleep(&tick, NULL);
-    assert_true(is_kept("a", "x")); /* and so it is the newest */
+    assert_true(is_stored("a", "x")); /* and so it is the newest */
     nanosleep(&tick, NULL);
     aur_cache_file_write("kind", "f", MANY - 100, data);
     size_t size;
@@ -202,7 +202,7 @@ static void oldest_go_first(void **state) {
         assert_true(kept != NULL && size == MANY - 100 && memcmp(kept, data, size) == 0);
         free(kept);
     }
-    assert_true(is_kept("a", "x"));
+    assert_true(is_stored("a", "x"));
     assert_int_equal(access(path, F_OK), 0);
     free(data);
 }
@@ -243,7 +243,7 @@ static void builds_have_an_identity(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(keeps_by_key),
+        IN_FOLDER(stores_by_key),
         IN_FOLDER(damaged_files_are_not_there),
         IN_FOLDER(nothing_where_nothing_can_be),
         IN_FOLDER(folders_are_found),

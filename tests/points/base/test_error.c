@@ -17,7 +17,7 @@ static void says_where_and_what(void **state) {
     assert_int_equal(aur_fail_at(NULL, where, AUR_ERROR_FORMAT, "nobody reads this"), AUR_ERROR_FORMAT);
 }
 
-/* The new message is made from the old one, and the new place from the old place. */
+/* The new message contains the old one, and the new location the old one. */
 static void may_be_made_from_itself(void **state) {
     (void)state;
     aur_error error;

@@ -37,7 +37,7 @@ static void replaces_whole_or_not_at_all(void **state) {
     free(data);
     assert_int_equal(aur_file_read(path, 3, &data, &size, &error), AUR_ERROR_FORMAT);
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(folder), 0); /* nothing is left beside it */
+    assert_int_equal(rmdir(folder), 0); /* no other file is left */
 }
 
 static void reports_what_cannot_be_written(void **state) {
@@ -62,7 +62,7 @@ static int enter(void **state) {
 
 static int leave(void **state) {
     (void)state;
-    return chdir("/") != 0 || rmdir(folder) != 0; /* every test has removed what it made */
+    return chdir("/") != 0 || rmdir(folder) != 0; /* every test has removed its files */
 }
 
 static void write_text(const char *path, const char *text) {
@@ -78,7 +78,7 @@ static mode_t mode_of(const char *path) {
 }
 
 /* A private file was readable by everybody after it had been written again. */
-static void keeps_the_mode(void **state) {
+static void preserves_the_mode(void **state) {
     (void)state;
     const mode_t before = umask(022);
     write_text("new", "1");
@@ -171,7 +171,7 @@ static void heeds_the_limit(void **state) {
     assert_int_equal(unlink("sized"), 0);
 }
 
-/* A disk that is full says so, also when the write that failed came long before the commit. */
+/* A full disk is reported, also if a write failed long before the commit. */
 static void says_why_it_failed(void **state) {
     (void)state;
     if (access("/dev/full", W_OK) != 0)
@@ -236,7 +236,7 @@ static void makes_what_links_point_to(void **state) {
 }
 
 /* The last test: from the first announcement on this process has inputs and outputs. */
-static void tells_inputs_from_outputs(void **state) {
+static void distinguishes_inputs_and_outputs(void **state) {
     (void)state;
     aur_error error = {0};
     write_text("in", "1");
@@ -265,7 +265,7 @@ static void tells_inputs_from_outputs(void **state) {
                      0);
 }
 
-/* The other process of two: what it is given is what the leader has found. */
+/* The second process of two receives the leader's results. */
 static aur_result give_nothing_bad(void *user, size_t size, void *data, aur_error *error) {
     (void)user;
     (void)error;
@@ -305,7 +305,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(replaces_whole_or_not_at_all),
         cmocka_unit_test(reports_what_cannot_be_written),
-        cmocka_unit_test(keeps_the_mode),
+        cmocka_unit_test(preserves_the_mode),
         cmocka_unit_test(follows_links),
         cmocka_unit_test(writes_the_longest_names),
         cmocka_unit_test(a_killed_process_leaves_nothing),
@@ -313,7 +313,7 @@ int main(void) {
         cmocka_unit_test(says_why_it_failed),
         cmocka_unit_test(reads_files_only),
         cmocka_unit_test(makes_what_links_point_to),
-        cmocka_unit_test(tells_inputs_from_outputs),
+        cmocka_unit_test(distinguishes_inputs_and_outputs),
         cmocka_unit_test(one_process_reads_and_writes_for_all),
     };
     return cmocka_run_group_tests(tests, enter, leave);

@@ -24,8 +24,7 @@ static void finds_and_suggests(void **state) {
     assert_string_equal(aur_names_nearest(names, "difuse"), "diffuse");
     assert_null(aur_names_nearest(names, "zzzzzz"));
     assert_null(aur_names_nearest(names, ""));
-    /* Capitals and _ for - are no difference; three letters of which two are wrong are no mistake of typing.
-     */
+    /* Case and _ instead of - make no difference; three letters with two wrong are no typing error. */
     assert_string_equal(
         aur_names_nearest(aur_names_of(2, (const char *const[]){"cube-map", "sphere-map"}), "SPHERE_MAP"),
         "sphere-map");

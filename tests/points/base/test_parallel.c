@@ -54,7 +54,7 @@ static void returns_the_first_failure(void **state) {
     assert_int_equal(atomic_load(&v.count[41]), 0);
 }
 
-/* A number of threads that no machine has is held to what the process may use well. */
+/* An excessive number of threads is reduced to what the process can use. */
 static void clamps_the_number_of_threads(void **state) {
     (void)state;
     assert_int_equal(aur_parallel_threads(1), 1);
@@ -68,8 +68,8 @@ static void clamps_the_number_of_threads(void **state) {
     unsetenv("OMP_NUM_THREADS");
 }
 
-/* libgomp ended the host here with exit(1). Half a gigabyte beyond what is mapped holds no sixteen stacks of
- * 64 MiB. */
+/* Regression: libgomp ended the host here with exit(1). Half a gigabyte beyond the mapped memory is not
+ * enough for sixteen stacks of 64 MiB. */
 static void works_without_threads_to_be_had(void **state) {
     (void)state;
     if (!LIMITS_HOLD)
@@ -137,7 +137,7 @@ static void nests_in_items_and_callbacks(void **state) {
     alarm(0);
 }
 
-/* Work in a callback of work in a callback ..., all of it long items that ask whether to stop. */
+/* Nested callbacks of parallel work, all with long items that poll for cancellation. */
 typedef struct depth {
     struct depth *inner;
     int cancels_at; /* calls of its callback; 0: never */
@@ -188,7 +188,7 @@ static void nests_at_any_depth(void **state) {
     alarm(0);
 }
 
-/* A callback stops its own work, neither what it was called from nor what it calls. */
+/* A callback cancels only its own work, neither its caller's nor its callees'. */
 static void cancels_one_depth(void **state) {
     (void)state;
     alarm(60);

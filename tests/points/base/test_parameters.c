@@ -57,7 +57,7 @@ static void refuses_what_is_wrong(void **state) {
     assert_int_equal(aur_parameters_parse(&parameters, "set", "x:nothing", &error), AUR_ERROR_FORMAT);
 }
 
-/* A key that two tables ask for stands in the list once. */
+/* A key that two tables request is listed once. */
 static void lists_a_key_once(void **state) {
     (void)state;
     aur_parameters parameters;

@@ -1,4 +1,4 @@
-/* Progress of pieces: one series from 0 to 1 that never goes back. */
+/* Progress of parts: one series from 0 to 1 that never decreases. */
 #include "points/base/parallel.h"
 
 #include <math.h>
@@ -40,8 +40,8 @@ static int keep_both(void *user, const char *what, uint64_t done, uint64_t total
     return 0;
 }
 
-/* Where the whole is known, the share is that of the work; where it is thought to be more or less on the way,
- * the share never falls, and its rate tells the work that is left; where nobody knows, it waits. */
+/* If the total is known, the share is that of the work. If estimates of the total change, the share never
+ * decreases, and its rate predicts the remaining work. If the total is unknown, the share waits. */
 static void test_share(void **state) {
     (void)state;
     told seen;

@@ -9,7 +9,7 @@
 #include "points/base/simd.h"
 #include "points/linear/solve.h"
 
-/* The kernel for s = 3/2 of a spiral of points, with the default regularisation: what the weights ask for. */
+/* The kernel for s = 3/2 of a spiral of points, with the default regularisation, as weights require it. */
 static double *kernel_matrix(size_t n) {
     double *const matrix = malloc(n * n * sizeof *matrix);
     assert_non_null(matrix);
@@ -142,7 +142,7 @@ static void check_lapack(size_t n) {
     assert_int_equal(LAPACKE_dpocon(LAPACK_COL_MAJOR, 'U', size, theirs, size, norm, &reciprocal), 0);
     assert_int_equal(LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'U', size, 1, theirs, size, x + n, size), 0);
     assert_int_equal(aur_solve_positive(n, matrix, 1, x, &condition, NULL), AUR_OK);
-    /* Both solve a system with errors of some n units in the last place, which its condition magnifies. */
+    /* Both solve a system with errors of some n units in the last place, multiplied by its condition. */
     const double error = 4.0 * (double)n * 0x1p-53 * condition;
     assert_true(error < 1e-3);
     assert_relative(condition, 1.0 / reciprocal, error);

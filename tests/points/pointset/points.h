@@ -47,8 +47,8 @@ static inline bool is_net(size_t base, unsigned m, const double *points, size_t 
         const size_t rows = count / columns;
         memset(seen, 0, count);
         for (size_t i = 0; i < count; ++i) {
-            /* Quotients of integers by the base's powers are rounded: a point on a border is not beside it.
-             */
+            /* Quotients of integers by powers of the base are rounded: a point on a boundary must not fall
+             * outside. */
             const double nudge = base == 2 ? 0.0 : 1e-9;
             const size_t x = (size_t)(points[i * dimension + a] * (double)columns + nudge);
             const size_t y = (size_t)(points[i * dimension + b] * (double)rows + nudge);
@@ -59,8 +59,8 @@ static inline bool is_net(size_t base, unsigned m, const double *points, size_t 
     return net;
 }
 
-/* The star discrepancy of points of the square from its definition: corners are made of the points'
- * coordinates and 1; open boxes count too few points, closed ones too many. O(N^3). */
+/* The star discrepancy of points of the square from its definition: corners consist of the points'
+ * coordinates and 1; open boxes undercount, closed ones overcount. O(N^3). */
 static inline double brute_star_discrepancy(size_t count, const double *points) {
     double worst = 0.0;
     for (size_t i = 0; i <= count; ++i) {

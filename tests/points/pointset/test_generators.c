@@ -20,8 +20,8 @@ static void lcg_is_minstd(void **state) {
     aur_pointset_destroy(set);
 }
 
-/* The recursion one step at a time, inverses by trial of Fermat in plain loops, across the point at infinity
- * of the projective line that random access has to step over. */
+/* The recursion step by step, inverses by Fermat's theorem in plain loops, across the point at infinity of
+ * the projective line, which random access must skip. */
 static void icg_is_the_recursion(void **state) {
     (void)state;
     const uint64_t p = 2147483647;
@@ -91,8 +91,8 @@ static void runs_are_their_points(void **state) {
     }
 }
 
-/* Cells have equal area, so that the first coordinate's column and the second's row are known from the index.
- */
+/* Cells have equal area, so the column of the first coordinate and the row of the second follow from the
+ * index. */
 static void jittered_points_are_in_their_cells(void **state) {
     (void)state;
     for (size_t count = 1; count < 400; ++count) {
@@ -305,8 +305,8 @@ static void lattices_are_exact(void **state) {
     free(points);
 }
 
-/* floor(2^128 / Phi) from Phi's own equation: g = 1/Phi is the root of g^2 + g = 1, so that
- * 2^256 - g^2 - 2^128 g changes sign at the constant. By schoolbook arithmetic on four 64-bit limbs. */
+/* floor(2^128 / Phi) from Phi's equation: g = 1/Phi is the root of g^2 + g = 1, so 2^256 - g^2 - 2^128 g
+ * changes sign at the constant. By schoolbook arithmetic on four 64-bit limbs. */
 typedef struct wide256 {
     uint64_t limb[4];
 } wide256;

@@ -89,7 +89,7 @@ static void all_forms_agree(void **state) {
     }
 }
 
-/* NULL: what the environment said before. */
+/* NULL: the previous environment. */
 static void hold_isa(const char *name) {
     if (name != NULL)
         setenv("AUREOLE_ISA", name, 1);
@@ -299,7 +299,7 @@ static void outputs_are_checked(void **state) {
 static void golden_sets_agree(void **state) {
     (void)state;
     enum { N = 300777 };
-    static double whole[2 * N]; /* so many that they go past the caches */
+    static double whole[2 * N]; /* larger than the caches */
     static float floats[2 * N];
     double *const prepared = make_points(
         "golden-set:seed=0.375", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = N});

@@ -58,8 +58,8 @@ static aur_result read_on(aur_domain domain, const char *text, aur_points **poin
     return aur_points_read(path, &domain, points, error);
 }
 
-/* A header x,y is the disk's, and the square's where the square is asked for. */
-static void the_domain_asked_for_decides(void **state) {
+/* A header x,y means the disk, or the square if the square is requested. */
+static void the_requested_domain_decides(void **state) {
     (void)state;
     static const char unit[] = "x,y\n0.9,0.9\n";
     aur_points *points;
@@ -236,7 +236,7 @@ static void bad_arrays_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(headers_say_what_columns_are), cmocka_unit_test(the_domain_asked_for_decides),
+        cmocka_unit_test(headers_say_what_columns_are), cmocka_unit_test(the_requested_domain_decides),
         cmocka_unit_test(domains_have_names),           cmocka_unit_test(numbers_come_back),
         cmocka_unit_test(bad_text_names_its_line),      cmocka_unit_test(arrays_come_back),
         cmocka_unit_test(bad_arrays_are_refused),

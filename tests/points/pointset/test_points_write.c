@@ -57,7 +57,7 @@ static void csv_is_as_documented(void **state) {
     expect_text(AUR_POINTS_CSV, &cube, NULL, "u1,u2,u3,u4\n0,0.10000000000000001,0.5,0.75\n");
 }
 
-/* The text of a set may hold what JSON must escape. */
+/* The text of a set may contain characters that JSON must escape. */
 static void json_names_its_origin(void **state) {
     (void)state;
     const aur_points_origin origin = {.size = sizeof origin,
@@ -77,7 +77,7 @@ static void json_names_its_origin(void **state) {
                 "    [0, 0.10000000000000001],\n    [0.5, 0.75]\n  ]\n}\n");
 }
 
-/* NumPy's format: magic, version, a header whose end is a multiple of 64, then rows of doubles. */
+/* NPY format: magic, version, a header padded to a multiple of 64, then rows of doubles. */
 static void npy_is_what_numpy_reads(void **state) {
     (void)state;
     assert_int_equal(aur_points_write(path, AUR_POINTS_NPY, &round_one, NULL, NULL), AUR_OK);

@@ -33,7 +33,7 @@ static void prefixes_of_pmj02_are_nets(void **state) {
     free(before);
 }
 
-/* Neighbouring coordinates make nets in any dimension, which those of Sobol's points do not. */
+/* Neighbouring coordinates form nets in any dimension, unlike those of Sobol's points. */
 static void neighbours_of_cascaded_points_are_nets(void **state) {
     (void)state;
     enum { DIGITS = 10, DIMENSION = 40 };
@@ -73,8 +73,9 @@ static double mean_distance(size_t count, const double *points) {
     return sum;
 }
 
-/* Chosen flips keep the nets, and neighbours farther apart than any of 20 drawn scramblings does. */
-static void owen_trees_keep_nets_and_distances(void **state) {
+/* Optimised flips preserve the nets, and neighbours are farther apart than in any of 20 random scramblings.
+ */
+static void owen_trees_preserve_nets_and_distances(void **state) {
     (void)state;
     enum { DIGITS = 8, N = 1 << DIGITS };
     double drawn = 0.0;
@@ -137,7 +138,7 @@ static void slices_are_even(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(prefixes_of_pmj02_are_nets),
                                        cmocka_unit_test(neighbours_of_cascaded_points_are_nets),
-                                       cmocka_unit_test(owen_trees_keep_nets_and_distances),
+                                       cmocka_unit_test(owen_trees_preserve_nets_and_distances),
                                        cmocka_unit_test(slices_are_even)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

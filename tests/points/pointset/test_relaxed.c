@@ -1,4 +1,4 @@
-/* Blue-noise sets: power diagrams against brute force, what relaxation promises, and the cache of results. */
+/* Blue-noise sets: power diagrams against brute force, guarantees of relaxation, and the cache of results. */
 #include "points.h"
 
 #include <dirent.h>
@@ -119,7 +119,7 @@ static void warm_starts_change_nothing(void **state) {
         diagram.cells = cold;
         aur_power_diagram_compute(&diagram);
         for (size_t i = 0; i < COUNT; ++i) {
-            /* The order of the cuts differs, and so does what is rounded: borders of length below 1. */
+            /* The order of the cuts differs, and so does rounding: borders of length below 1. */
             assert_near(warm[i].area, cold[i].area, 1e-14);
             assert_near(warm[i].centre.x, cold[i].centre.x, 1e-10);
         }
@@ -211,8 +211,8 @@ static void every_small_size_works(void **state) {
     }
 }
 
-/* What is kept, and that what is damaged is not taken, is tested in core/cache_file. */
-static void results_are_kept(void **state) {
+/* core/cache_file tests storage and the rejection of damaged files. */
+static void results_are_cached(void **state) {
     (void)state;
     assert_non_null(mkdtemp(folder));
     setenv("AUREOLE_CACHE", folder, 1);
@@ -222,7 +222,7 @@ static void results_are_kept(void **state) {
     char *const kept = aur_cache_file_read("bnot", "bnot 2 20 5", &size);
     assert_non_null(kept);
     assert_int_equal(size, 40 * sizeof *computed);
-    /* What is read is what is kept, whatever that is, unless there is too little of it. */
+    /* Reads return the stored data, whatever they are, unless they are too short. */
     const double half = 0.5;
     memcpy(kept, &half, sizeof half);
     aur_cache_file_write("bnot", "bnot 2 20 5", size, kept);
@@ -252,7 +252,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_are_those_of_brute_force), cmocka_unit_test(slopes_are_derivatives),
         cmocka_unit_test(warm_starts_change_nothing),     cmocka_unit_test(points_are_blue),
-        cmocka_unit_test(every_small_size_works),         cmocka_unit_test(results_are_kept),
+        cmocka_unit_test(every_small_size_works),         cmocka_unit_test(results_are_cached),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

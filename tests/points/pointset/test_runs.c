@@ -22,8 +22,8 @@ static int find_forms(void **state) {
     return 0;
 }
 
-/* Quotients by multiplication are those of a division: all below small sizes, and those of sizes about
- * powers of two up to the limit, whose quotients come nearest to where rounding turns. */
+/* Quotients by multiplication equal those of a division: all below small sizes, and those of sizes about
+ * powers of two up to the limit, whose quotients come closest to rounding boundaries. */
 static void quotients_are_divisions(void **state) {
     (void)state;
     enum { COUNT = 777 };

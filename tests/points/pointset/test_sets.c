@@ -1,5 +1,5 @@
-/* Golden values, nets before and after scrambling, discrepancies in closed form, and what every set promises.
- */
+/* Golden values, nets before and after scrambling, discrepancies in closed form, and the guarantees of every
+ * set. */
 #include "points.h"
 
 #include "points/sphere/native.h"
@@ -244,7 +244,7 @@ static void discrepancies_have_their_closed_forms(void **state) {
     }
 }
 
-/* Each set's own smallest name with keys that make it valid. */
+/* The shortest valid name of each set, with its required keys. */
 static bool needs_a_file(const char *name) {
     return strcmp(name, "file") == 0 || strcmp(name, "matrices") == 0;
 }
@@ -282,7 +282,7 @@ static void every_set_is_random_access(void **state) {
     }
 }
 
-/* The first points of a larger set are the smaller set, where the table says so. */
+/* The first points of a larger set are the smaller set, if the table states it. */
 static void extensible_sets_extend(void **state) {
     (void)state;
     for (size_t k = 0; k < AUR_SQUARE_SET_COUNT; ++k) {
@@ -348,7 +348,7 @@ static void options_can_grow(void **state) {
     (void)state;
     struct {
         aur_pointset_options known;
-        int wish;
+        int option;
     } newer;
     memset(&newer, 0, sizeof newer);
     newer.known.size = sizeof(aur_pointset_options);
@@ -358,7 +358,7 @@ static void options_can_grow(void **state) {
     assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_OK);
     assert_int_equal(aur_pointset_size(set), 4);
     aur_pointset_destroy(set);
-    newer.wish = 1;
+    newer.option = 1;
     assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_ERROR_UNSUPPORTED);
     const aur_pointset_options unset = {.count = 4};
     assert_int_equal(aur_pointset_create("sobol", &unset, &set, NULL), AUR_ERROR_ARGUMENT);
@@ -416,7 +416,7 @@ static void count_warning(void *user, const char *message) {
     ++*(int *)user;
 }
 
-static void incomplete_nets_are_told(void **state) {
+static void incomplete_nets_are_reported(void **state) {
     (void)state;
     int warnings = 0;
     aur_pointset_options options = {
@@ -458,7 +458,7 @@ int main(void) {
         cmocka_unit_test(the_seed_acts),
         cmocka_unit_test(rotate_shifts_the_azimuth),
         cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(incomplete_nets_are_told),
+        cmocka_unit_test(incomplete_nets_are_reported),
         cmocka_unit_test(options_can_grow),
         cmocka_unit_test(names_of_scramblings_round_trip),
     };

@@ -1,4 +1,4 @@
-/* Sets for smooth functions, against brute force and their own rates. */
+/* Sets for smooth functions, against brute force and their convergence rates. */
 #include "points.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Estimates of functionals: closed forms, errors asked, what a functional and the options may do wrong. */
+/* Estimates of functionals: closed forms, target errors, and invalid functionals and options. */
 #include <aureole/estimate.h>
 #include <aureole/statistics.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static void test_means(void **state) {
     }
 }
 
-/* No error is asked: one level of all points; an error out of reach: as many levels as fit. */
+/* Without a target error: one level of all points; with an unreachable target: as many levels as fit. */
 static void test_reasons(void **state) {
     (void)state;
     aur_estimate_options options = {.size = sizeof options};
@@ -65,8 +65,8 @@ static void test_reasons(void **state) {
     assert_true(!report.reached && report.levels == 2 && report.evaluations == 16 * (16 + 32));
 }
 
-/* Of 1000 intervals as many hold the mean as they say, and standard errors are those of the values' spread:
- * five standard deviations of the binomial count are a false alarm in two million. Means of independent
+/* Of 1000 intervals the stated fraction covers the mean, and standard errors are those of the values' spread:
+ * five standard deviations of the binomial count give a false alarm in two million. Means of independent
  * random points are nearly normal. */
 static void test_coverage(void **state) {
     (void)state;

@@ -1,4 +1,4 @@
-/* What the values of a function say: gaps as sorting has them, tails of known shape, jumps and gaps that
+/* Properties estimated from a function's values: gaps by sorting, tails of known shape, jumps and gaps that
  * close. */
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +75,7 @@ static int ascending(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/* The gap beside brute force, for few values with ties. */
+/* The gap against brute force, for few values with ties. */
 static void gaps(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 200; ++seed) {

@@ -1,5 +1,5 @@
-/* Weights that are exact to a degree. Oracles: closed moments of monomials, a harmonic from its formula,
- * designs whose degree is known, and the golden figures of spherical Fibonacci sets. */
+/* Weights that are exact to a degree. References: closed moments of monomials, a harmonic from its formula,
+ * designs of known degree, and the golden values of spherical Fibonacci sets. */
 #include <aureole/exact.h>
 #include <aureole/quality.h>
 #include <stdlib.h>
@@ -79,8 +79,8 @@ static void golden(void **state) {
     free(xyz);
 }
 
-/* On every domain, against closed moments of all monomials: those are at most 1, so that rounding of N terms
- * of mean 1/N leaves some 1e-15. */
+/* On every domain, against closed moments of all monomials: those are at most 1, so the rounding of N terms
+ * of mean 1/N is some 1e-15. */
 static void monomials(void **state) {
     (void)state;
     const struct {
@@ -112,9 +112,9 @@ static void monomials(void **state) {
     }
 }
 
-/* Designs whose degree is known, with fewer points than there are harmonics: the vertices of the octahedron
- * have degree 3, of the cube 3, of the icosahedron 5, each with equal weights; with the octahedron the cube
- * has 5 (the Lebedev rule of 14 points, weights 1/15 and 3/40). */
+/* Designs of known degree, with fewer points than harmonics: the vertices of the octahedron have degree 3, of
+ * the cube 3, of the icosahedron 5, each with equal weights; the octahedron with the cube has 5 (the Lebedev
+ * rule of 14 points, weights 1/15 and 3/40). */
 static void designs(void **state) {
     (void)state;
     double xyz[3 * 14] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1}, weights[14];
@@ -299,7 +299,7 @@ static void many_points(void **state) {
     free(xyz);
 }
 
-/* What the tolerance promises, by the plain transform: the solver goes by the fast one. */
+/* The guaranteed tolerance, checked by the plain transform: the solver uses the fast one. */
 static void tolerances(void **state) {
     (void)state;
     enum { N = 5000, DEGREE = 60 };
@@ -381,7 +381,7 @@ static void bad_input(void **state) {
     assert_true(report.degree == 0 && weights[0] == 1.0);
     assert_int_equal(aur_weights_exact(2, xyz, &options, 5, weights, &report, &error), AUR_OK);
     assert_int_equal(report.degree, 1);
-    /* Doubled points share; given weights are kept as they are. */
+    /* Duplicate points share a weight; given weights are unchanged. */
     assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_OK);
     assert_true(report.degree == 1 && report.places == 2);
     assert_near(weights[0], 0.25, 1e-15);
@@ -495,7 +495,7 @@ static void negative(void **state) {
     free(xyz);
 }
 
-/* Each level of a grid is exact by itself, and what stands behind it has no weight. */
+/* Each level of a grid is exact by itself, and the points after it have no weight. */
 static void nested(void **state) {
     (void)state;
     enum { N = 512, LEVELS = 4 };
@@ -577,7 +577,7 @@ static int count_down(void *user, const char *what, uint64_t done, uint64_t tota
     return ++c->calls == c->last;
 }
 
-/* A step over many points takes seconds: whether to stop is asked within it, and the answer holds at once. */
+/* A step over many points takes seconds: it polls for cancellation, and stops at once. */
 static void stops_within_a_step(void **state) {
     (void)state;
     enum { N = 40000 };
@@ -605,7 +605,7 @@ static void stops_within_a_step(void **state) {
     free(xyz);
 }
 
-/* The least and the last share that was told, and how often none was. */
+/* The minimum and maximum of the reported share, and the number of reports of 0. */
 typedef struct search_progress {
     double share;
     size_t known, unknown;
@@ -622,9 +622,9 @@ static int follow_search(void *user, const char *what, uint64_t done, uint64_t t
     return 0;
 }
 
-/* Where the largest degree of a set may lie anywhere, nothing is told of how long the search takes, until few
- * degrees are left; of even sets it is told after the first degree. What is told never falls. */
-static void searches_tell(void **state) {
+/* If the largest degree of a set is unknown, the remaining time is not reported until few degrees are left;
+ * for even sets it is reported after the first degree. The reported share never decreases. */
+static void searches_report(void **state) {
     (void)state;
     enum { N = 3000 };
     static const char *const sets[] = {"random", "spherical-fibonacci"};
@@ -653,6 +653,6 @@ int main(void) {
                                        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),
                                        cmocka_unit_test(negative),    cmocka_unit_test(cells),
                                        cmocka_unit_test(nested),      cmocka_unit_test(stops_within_a_step),
-                                       cmocka_unit_test(reports),     cmocka_unit_test(searches_tell)};
+                                       cmocka_unit_test(reports),     cmocka_unit_test(searches_report)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,4 @@
-/* Exact weights and areas of cells for GGX lobes. Oracle: the lobe as it is written, by another quadrature.
- */
+/* Exact weights and cell areas for GGX lobes. Reference: the lobe from its formula, by another quadrature. */
 #include <aureole/exact.h>
 #include <aureole/quality.h>
 #include <stdlib.h>
@@ -75,7 +74,7 @@ static void check_hidden(size_t count, const double *xyz, const double *weights,
     assert_int_equal(weighed, visible);
 }
 
-/* Areas of the cells of what lies above the surface, times the lobe there. */
+/* Cell areas above the surface, times the lobe there. */
 static void check_cells(size_t count, const double *xyz, const aur_lobe *lobe) {
     aur_density density = {.size = sizeof density};
     aur_density_init(&density, NULL);

@@ -1,5 +1,5 @@
-/* Tables of weights of GGX lobes over angle and roughness: against the systems that they stand for, through
- * files, and what is refused. */
+/* Tables of weights of GGX lobes over angle and roughness: against the systems that they tabulate, through
+ * files, and invalid input. */
 #include <aureole/quadrature.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,7 +92,7 @@ static void test_interpolation(void **state) {
     aur_weight_table_destroy(table);
 }
 
-/* At nodes of the grid a look-up is the system's solution, also of samples merged with a diffuse lobe's;
+/* At nodes of the grid a look-up equals the system's solution, also for samples merged with a diffuse lobe's;
  * masses are those of the lobe. */
 static void test_nodes(void **state) {
     (void)state;
@@ -135,7 +135,7 @@ static void test_nodes(void **state) {
     }
 }
 
-/* What comes back from a file looks up as what went in. */
+/* A table read from a file gives the look-ups of the written one. */
 static void test_file(void **state) {
     (void)state;
     const char *const path = "roughness.table";
@@ -180,7 +180,7 @@ static void test_refusals(void **state) {
     options = pattern(1, 0.2);
     options.mirror_lobe = (aur_lobe){.exponent = 20.0};
     assert_int_equal(aur_weight_table_build(&options, &grid, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
-    options.count = 0; /* only a ggx lobe stands alone */
+    options.count = 0; /* only a ggx lobe may be single */
     assert_int_equal(aur_weight_table_build(&options, NULL, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
     options = pattern(0, 0.2);
     assert_int_equal(aur_weight_table_build(&options, &grid, 1, NULL, &table, &error), AUR_OK);

@@ -1,5 +1,5 @@
-/* Integrals to a tolerance: closed forms on every domain, products with an axis, reasons of stopping, and
- * what the function and the options may do wrong. */
+/* Integrals to a tolerance: closed forms on every domain, products with an axis, stopping reasons, and
+ * invalid functions and options. */
 #include <aureole/integrate.h>
 #include <string.h>
 
@@ -54,8 +54,8 @@ static double zero(const double u[3], double x) {
     return 0.0;
 }
 
-/* Within the interval with a probability of .95 or so: three times the error wanted is out of reach for 8
- * replicates but in one of 10^4 runs, and the seeds are fixed. */
+/* Within the interval with a probability of about .95: three times the target error is exceeded for 8
+ * replicates once in 10^4 runs, and the seeds are fixed. */
 static void closed_forms(void **state) {
     (void)state;
     const double length = sqrt(6.0), cap = cos(AUR_PI / 6.0), sphere = 4.0 * AUR_PI;
@@ -120,7 +120,7 @@ static void ends(void **state) {
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_OK);
     assert_int_equal(integral.reason, AUR_INTEGRATE_EVALUATIONS);
     assert_true(integral.evaluations == 8192 && f.points == 8192 && integral.error > 1e-9);
-    /* Of a constant nothing is known but its value, however many evaluations there are. */
+    /* For a constant only its value is determined, however many evaluations there are. */
     f = (integrand){.value = zero};
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_OK);
     assert_true(integral.value == 0.0 && integral.reason == AUR_INTEGRATE_EVALUATIONS);
@@ -137,8 +137,8 @@ static void ends(void **state) {
     assert_non_null(strstr(error.message, "the function is nan in the direction ("));
 }
 
-/* One level of a discontinuous function: of 1000 intervals as many hold the integral as they say. Student's
- * assumes normal values, which these nearly are, and five standard deviations of the binomial count are a
+/* One level of a discontinuous function: of 1000 intervals the stated fraction covers the integral. Student's
+ * t assumes normal values, which these nearly are; five standard deviations of the binomial count give a
  * false alarm in two million. */
 static void coverage(void **state) {
     (void)state;
@@ -366,7 +366,7 @@ static void root_of_first(const double *x, double *values) {
     values[0] = pow(x[0], -0.9);
 }
 
-/* A sun with a stratum of its own; singularities that the points make up for are constants. */
+/* A sun with a separate stratum; singularities that the points' density cancels are constants. */
 static void peaks(void **state) {
     (void)state;
     aur_integrate_peak peak = {.centre = sun_axis, .radius = 0.3};
@@ -389,7 +389,7 @@ static void peaks(void **state) {
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
     assert_relative(integral.value, 2000.0 * AUR_PI / 3.0 + 2e7 * AUR_PI * sine * sine * sun_axis[2], 0.03);
 
-    /* Where the rest of the domain has nothing, its tiny values raise no doubt; and nothing is known of 0. */
+    /* Where the rest of the domain is 0, tiny values raise no warning; and for 0 nothing can be estimated. */
     f = (integrand){.value = narrow};
     aur_integrate_options_init(AUR_DOMAIN_AXES, &options, NULL);
     options.peak_count = 1;
@@ -433,8 +433,8 @@ static double spot(const double u[3], double x) {
                        : 0.0); /* pi and 3000 times 2 pi 5e-5 */
 }
 
-/* A spot of a share of 5e-5 of the hemisphere over a sky that varies: without a resolution the sky converges;
- * with it a result without the spot has the probability .05, so that of 60 more than 9 have .001. */
+/* A spot of a share of 5e-5 of the hemisphere over a varying sky: without a resolution the sky converges;
+ * with it a result without the spot has the probability .05, so that more than 9 of 60 have .001. */
 static void resolution(void **state) {
     (void)state;
     aur_integrate_options options = {.size = sizeof options};
@@ -468,7 +468,7 @@ static void several(const double *x, double *values) {
     values[2] = 0.0;
 }
 
-/* Components of one integral have one target; separate ones each their own, also that of a constant. */
+/* Components of one integral share a target; separate ones have individual targets, also a constant. */
 static void vectors(void **state) {
     (void)state;
     general f = {.value = several, .coordinates = 2, .values = 3};
@@ -510,7 +510,7 @@ static void count_message(void *user, const char *message) {
     ++*(size_t *)user;
 }
 
-/* What looks bad is said, in the result and in words, and is no end before the last evaluation. */
+/* Suspicious values are reported, in the result and in a message, and do not stop the evaluations. */
 static void doubts(void **state) {
     (void)state;
     const struct {
@@ -580,7 +580,7 @@ static void sets(void **state) {
         assert_true(integral.levels == 1 && integral.evaluations == 50 * 16);
         assert_relative(integral.value, 1.0 / 3.0, 1e-13); /* exact weights */
     }
-    /* 50 points of Lebedev are exact to degree 11, which their own weights alone are. */
+    /* 50 points of Lebedev are exact to degree 11, but only with their native weights. */
     integrand f = {.value = tenth_power};
     aur_integrate_options options = {.size = sizeof options};
     aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);

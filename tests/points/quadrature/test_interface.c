@@ -1,6 +1,5 @@
-/* Every public function of quadrature.h once with good input and once with bad: NULL where it is allowed,
- * nothing to do, sizes that were not set, values out of range and room that is too small. What the functions
- * compute is tested elsewhere. */
+/* Every public function of quadrature.h once with good input and once with bad: NULL where allowed, no work,
+ * unset sizes, values out of range and buffers that are too small. Results are tested elsewhere. */
 #include "check.h"
 
 #include <aureole/quadrature.h>
@@ -13,7 +12,7 @@
 
 enum { COUNT = 12, MIRROR_COUNT = 5, SIZE = COUNT + MIRROR_COUNT };
 
-/* A function has refused its input with this result, and said so in a sentence. */
+/* A function has rejected its input with this result and a message. */
 static void assert_refused(aur_result result, aur_result expected, const aur_error *error) {
     assert_int_equal(result, expected);
     assert_int_equal(error->result, expected);

@@ -30,8 +30,8 @@ static aur_potential *create(const aur_density *density) {
     return potential;
 }
 
-/* The constant blocks, turns, hidden samples and clipped z of the fast way give what the plain solve gives of
- * the same points. */
+/* The fast method (constant blocks, rotations, hidden samples, clipped z) gives the weights of the plain
+ * solve for the same points. */
 static void test_solve_is_the_plain_one(void **state) {
     (void)state;
     const double turns[2] = {0.13, 0.77};
@@ -311,7 +311,7 @@ static void test_file(void **state) {
         assert_memory_equal(first, second, sizeof first);
     }
     assert_true(aur_weight_table_mass(loaded, 0.3, 0.0) == aur_weight_table_mass(table, 0.3, 0.0));
-    /* What is not in the table, and what does not fit, is refused. */
+    /* Anything outside the table, or incompatible, is rejected. */
     const struct {
         size_t lobe, rotation, capacity;
         double radians;
@@ -337,7 +337,7 @@ static void test_file(void **state) {
     aur_weight_table_destroy(loaded);
     aur_weight_table_destroy(table);
 
-    /* Another set, other options: the message says which. */
+    /* Another set, other options: the message states which. */
     aur_oswa_options other = options;
     other.set = "halton";
     assert_int_equal(aur_weight_table_load(path, &other, &loaded, &error), AUR_ERROR_FORMAT);

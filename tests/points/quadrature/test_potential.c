@@ -84,7 +84,8 @@ static void test_long_series(void **state) {
              * 1e-9. */
             const double decay = exponents[e] + 2.0 * smoothness[s];
             const double tolerance = decay < 2.9 ? 2e-9 : decay < 3.5 ? 1e-11 : 1e-12;
-            /* Smooth kernels nearly vanish far from the lobe: rounding is that of their largest values. */
+            /* Smooth kernels nearly vanish far from the lobe: rounding is relative to their largest values.
+             */
             const double largest = smoothness[s] > 2.0 ? aur_kernel(smoothness[s], 0.0) : 0.0;
             for (int i = 0; i < COUNT; ++i)
                 assert_near(z[i], expected[i], tolerance * fmax(largest, fabs(expected[i])));
@@ -154,7 +155,7 @@ static void test_smooth_rates(void **state) {
                              AUR_OK);
             assert_true(optimal[k] < error[k]);
         }
-        /* 4^{s/2} = 2^s from 64 to 256 points, and a fifth for what is not yet the asymptote. */
+        /* 4^{s/2} = 2^s from 64 to 256 points, and a fifth for the distance from the asymptote. */
         assert_true(optimal[0] / optimal[1] > 0.8 * pow(2.0, smoothness[s]));
         aur_potential_destroy(potential);
     }
@@ -288,7 +289,7 @@ static aur_result clipped_value(void *user, size_t count, const double *directio
     return AUR_OK;
 }
 
-/* A density that fails from the fourth of its calls on, with words of its own. */
+/* A density that fails from its fourth call on, with its own message. */
 static aur_result failing(void *user, size_t count, const double *directions, double *values,
                           aur_error *error) {
     (void)directions;
@@ -300,7 +301,7 @@ static aur_result failing(void *user, size_t count, const double *directions, do
     return AUR_OK;
 }
 
-/* What a density's function says ends the call that asked, while nodes are made and afterwards. */
+/* A density's error ends the call that evaluates it, during the creation of nodes and afterwards. */
 static void test_function_that_fails(void **state) {
     (void)state;
     size_t calls = 0;

@@ -1,6 +1,6 @@
-/* What weights gain, over many seeds: the figures of Marques 2018 sections 5.2 and 5.3, slopes, clipping, the
- * optimal density, and the rivals. Every seed is fixed; tolerances are at least four standard errors of the
- * means. */
+/* Gains by weights over many seeds: the figures of Marques 2018 sections 5.2 and 5.3, slopes, clipping, the
+ * optimal density, and competing methods. Every seed is fixed; tolerances are at least four standard errors
+ * of the means. */
 #include <aureole/quadrature.h>
 #include <aureole/statistics.h>
 #include <stdlib.h>
@@ -136,7 +136,7 @@ static void test_slopes(void **state) {
     assert_near(slope[0], -0.767, 0.01);
 }
 
-/* The golden figures of the optimal density, with points of the library's own density. */
+/* The golden figures of the optimal density, with the library's points for that density. */
 static void test_optimal_density(void **state) {
     (void)state;
     double xyz[3 * 64], ratio[64], weights[64], plain;
@@ -204,7 +204,7 @@ static double estimate(const light *l, size_t count, const double *xyz, const do
 /* Horizon clipping: root mean square error of the glossy part over 60 lights, with weights for the whole lobe
  * and for the part above the surface, and the scaling that needs no solve. */
 static void check_clipping(double degrees) {
-    enum { LIGHTS = 60, DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 20000 };
+    enum { LIGHTS = 60, DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, REFERENCE = 20000 };
     const double angle = degrees * PI / 180.0;
     aur_oswa_options options = {.size = sizeof(aur_oswa_options),
                                 .set = "sobol",
@@ -213,7 +213,7 @@ static void check_clipping(double degrees) {
                                 .lobe = {.exponent = 1.0},
                                 .mirror_lobe = {.exponent = 20.0},
                                 .scramble = AUR_SCRAMBLE_DIGIT};
-    double *const truth_xyz = malloc(3 * TRUTH * sizeof *truth_xyz);
+    double *const truth_xyz = malloc(3 * REFERENCE * sizeof *truth_xyz);
     double errors[3] = {0};
     for (uint64_t i = 0; i < LIGHTS; ++i) {
         const light l = random_light(i);
@@ -239,18 +239,19 @@ static void check_clipping(double degrees) {
             sum += radiance(&l, xyz + 3 * k);
         }
         found[2] = mass[1] / mass[0] * sum / (double)visible;
-        /* The truth by many points of the lobe. */
+        /* The reference value by many points of the lobe. */
         double exact = 0.0;
         if (i == 0) {
-            draw(&(request){"spherical-fibonacci", TRUTH, 20.0, 0, AUR_SCRAMBLE_NONE, 0}, truth_xyz, NULL);
-            for (size_t k = 0; k < TRUTH; ++k) {
+            draw(&(request){"spherical-fibonacci", REFERENCE, 20.0, 0, AUR_SCRAMBLE_NONE, 0}, truth_xyz,
+                 NULL);
+            for (size_t k = 0; k < REFERENCE; ++k) {
                 const double x = truth_xyz[3 * k], z = truth_xyz[3 * k + 2];
                 truth_xyz[3 * k] = cos(angle) * x - sin(angle) * z;
                 truth_xyz[3 * k + 2] = sin(angle) * x + cos(angle) * z;
             }
         }
-        for (size_t k = 0; k < TRUTH; ++k)
-            exact += radiance(&l, truth_xyz + 3 * k) / TRUTH;
+        for (size_t k = 0; k < REFERENCE; ++k)
+            exact += radiance(&l, truth_xyz + 3 * k) / REFERENCE;
         for (int k = 0; k < 3; ++k)
             errors[k] += (found[k] - exact) * (found[k] - exact) / LIGHTS;
     }

@@ -69,7 +69,7 @@ static void test_sum_constraint(void **state) {
     assert_int_equal(
         aur_weights_solve(64, xyz, 1, potentials, &options, 64, weights, &free_of_it, NULL, NULL), AUR_OK);
     assert_near(free_of_it.weight_sum - 1.0, -0.00164, 5e-6);
-    /* What the constraint costs: about 0.2 % of the error. */
+    /* The cost of the constraint: about 0.2 % of the error. */
     assert_true(constrained.optimal_error >= free_of_it.optimal_error);
     assert_near(constrained.optimal_error / free_of_it.optimal_error, 1.002, 1e-3);
     aur_potential_destroy(potential);
@@ -130,7 +130,7 @@ static void test_sphere(void **state) {
     aur_potential_destroy(potential);
 }
 
-/* Samples at one place share their weight, with and without regularisation, and nothing else changes. */
+/* Coincident samples share their weight, with and without regularisation, and nothing else changes. */
 static void test_duplicates(void **state) {
     (void)state;
     enum { N = 40, COPIES = 3 };
@@ -175,8 +175,8 @@ static void test_duplicates(void **state) {
     aur_potential_destroy(potential);
 }
 
-/* Several densities over one set give what each gives alone; the condition estimate is the true one's size.
- */
+/* Several densities over one set give the results of each alone; the condition estimate has the magnitude of
+ * the true one. */
 static void test_many_densities(void **state) {
     (void)state;
     enum { N = 48 };
@@ -200,7 +200,7 @@ static void test_many_densities(void **state) {
     aur_potential_destroy(glossy);
 }
 
-/* One call makes what the pieces make. */
+/* One call gives the same as its steps. */
 static void test_rule(void **state) {
     (void)state;
     aur_directions_options points = {.size = sizeof points};
@@ -260,7 +260,7 @@ static void test_bad_input(void **state) {
     const aur_weights_options negative = {.size = sizeof(aur_weights_options), .regularization = -1.0};
     assert_int_equal(aur_weights_solve(1, off, 1, potentials, &negative, 1, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);
-    /* Beyond memory: says how much. The check comes before anything is read. */
+    /* Beyond memory: the message states the size. The check precedes any reading. */
     assert_int_equal(aur_check_system_size((size_t)1 << 27, &error), AUR_ERROR_MEMORY);
     assert_non_null(strstr(error.message, "GiB"));
     /* Not positive definite: an error, never NaN. */

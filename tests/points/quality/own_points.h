@@ -1,4 +1,4 @@
-/* Points of a test's own, which it changes and frees, and how the library sees them. */
+/* A test's private points, which it changes and frees, wrapped for the library. */
 #pragma once
 
 #include <aureole/quality.h>

@@ -23,8 +23,8 @@ static double measured(const char *metric, const own_points *points) {
 
 static const double frame[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Three axes at right angles are the six corners of the octahedron. Cells are cut from a square whose corners
- * are 1e6 away, so that angles and areas of few points are good to 1e-10. */
+/* Three orthogonal axes are the six corners of the octahedron. Cells are cut from a square whose corners are
+ * 1e6 away, so angles and areas of few points are good to 1e-10. */
 static void a_frame_has_the_figures_of_the_octahedron(void **state) {
     (void)state;
     own_points three = axes(3, frame), six = octahedron();
@@ -34,7 +34,7 @@ static void a_frame_has_the_figures_of_the_octahedron(void **state) {
     assert_near(measured("min-angle", &three), 0.5 * AUR_PI, 1e-15);
     assert_near(measured("min-distance", &three), sqrt(2.0), 1e-15);
     assert_near(measured("covering", &three), acos(1.0 / sqrt(3.0)), 1e-10);
-    /* Six ordered pairs of axes, whose ends are 2^1/2 apart; nothing of an axis against itself. */
+    /* Six ordered pairs of axes, whose ends are 2^1/2 apart; no term of an axis with itself. */
     assert_near(measured("riesz:1", &three), 6.0 * 2.0 / sqrt(2.0), 1e-14);
     assert_near(measured("riesz:-1", &three), 6.0 * 2.0 * sqrt(2.0), 1e-14);
     assert_near(measured("riesz:0", &three), -6.0 * log(2.0), 1e-14);

@@ -84,7 +84,7 @@ static void random_sets_have_the_exact_expectation(void **state) {
     assert_near(mean, 4.0 / 3.0, 5.0 * deviation);
 }
 
-/* Weights 2, 1 on two places are the same as three points of which two coincide. */
+/* Weights 2, 1 on two points equal three points, two of which coincide. */
 static void weights_are_masses(void **state) {
     (void)state;
     static const char *const metrics[] = {"energy", "riesz:-1"};

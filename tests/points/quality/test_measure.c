@@ -115,14 +115,14 @@ static void options_can_grow(void **state) {
     own_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     struct {
         aur_measure_options known;
-        int wish;
+        int option;
     } newer;
     memset(&newer, 0, sizeof newer);
     newer.known.size = sizeof newer;
     double value = 0.0;
     assert_int_equal(
         aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.known, &value, NULL), AUR_OK);
-    newer.wish = 1;
+    newer.option = 1;
     assert_int_equal(
         aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.known, &value, NULL),
         AUR_ERROR_UNSUPPORTED);

@@ -60,7 +60,7 @@ static void the_parameter_agrees_with_its_definition(void **state) {
         own_points points = random_points((size_t)1 << (seed % 6), 2, seed);
         assert_near(measured("net", &points), net_by_definition(&points), 0.0);
         release_points(&points);
-        /* A net with two points exchanged in one coordinate keeps part of its strength. */
+        /* A net with two points exchanged in one coordinate retains part of its strength. */
         points = scrambled_set("hammersley", 64, 2, AUR_SCRAMBLE_NONE);
         const size_t i = 2 * (seed % 63);
         const double y = points.coordinates[i + 1];

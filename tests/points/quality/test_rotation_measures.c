@@ -103,7 +103,7 @@ static void signs_and_equal_weights_do_not_matter(void **state) {
     release_points(&other);
 }
 
-/* No rotation that is tried is farther away than the covering says, and one comes near it. */
+/* No tested rotation is farther away than the covering radius, and one comes near it. */
 static void the_covering_is_the_largest_hole(void **state) {
     (void)state;
     own_points some = random_rotations(100, 5), tried = random_rotations(40000, 6);

@@ -132,9 +132,9 @@ static void the_spectrum_adds_up_to_the_energy(void **state) {
     release_points(&points);
 }
 
-/* Powers by a grid are those that are summed point by point, within what was allowed; bits do not depend on
- * threads. What cannot be promised is summed point by point. */
-static void grids_are_as_accurate_as_asked(void **state) {
+/* Powers by a grid equal those summed point by point, within the tolerance; bits do not depend on threads.
+ * Without an error guarantee, powers are summed point by point. */
+static void grids_reach_the_target_accuracy(void **state) {
     (void)state;
     enum { N = 1500 };
     own_points sets[3] = {random_points(N, 2, 4), random_points(N, 2, 5), random_directions(N, 6)};
@@ -142,7 +142,7 @@ static void grids_are_as_accurate_as_asked(void **state) {
     for (size_t i = 0; i < N; ++i)
         sets[1].weights[i] = aur_unit_double(aur_hash2(6, i)) - 0.25;
     sets[1].coordinates[0] = 0.0;
-    sets[1].coordinates[3] = 1.0; /* the same place as 0 */
+    sets[1].coordinates[3] = 1.0; /* the same position as 0 */
     static const char *const metrics[3] = {"periodogram:33", "periodogram:64", "spectrum:70"};
     for (size_t s = 0; s < 3; ++s) {
         const double accuracy = 4e-9;
@@ -175,7 +175,7 @@ int main(void) {
         cmocka_unit_test(a_grid_has_lines),
         cmocka_unit_test(the_angular_spectrum_is_the_sum_of_legendre_polynomials),
         cmocka_unit_test(the_spectrum_adds_up_to_the_energy),
-        cmocka_unit_test(grids_are_as_accurate_as_asked),
+        cmocka_unit_test(grids_reach_the_target_accuracy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,14 +32,14 @@ static own_points clustered(size_t count, uint64_t seed) {
     return points;
 }
 
-/* With a first point that moved, so that its sum is not the one that knows the set. */
+/* With a modified first point, so that the sum does not recognise the set. */
 static own_points nearly_fibonacci(size_t count, aur_domain domain) {
     own_points points = spherical_fibonacci(count, domain);
     set_direction(&points, 0, 0.9999, 1.0);
     return points;
 }
 
-/* Within the bound of the sum over all pairs, and the bound within what was asked. */
+/* Within the bound of the sum over all pairs, and the bound within the target. */
 static void agrees(const char *metric, const own_points *points, double accuracy) {
     double bound, none;
     const double exact = measured(metric, points, 0.0, 0, &none);
@@ -101,7 +101,7 @@ static void bounds_are_not_loose(void **state) {
     release_points(&points);
 }
 
-/* What is asked for and cannot be promised is summed over all pairs. */
+/* If the target cannot be guaranteed, the sum is over all pairs. */
 static void what_is_too_much_is_summed_exactly(void **state) {
     (void)state;
     own_points points = nearly_fibonacci(MANY, AUR_DOMAIN_SPHERE);

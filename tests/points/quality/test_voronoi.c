@@ -126,7 +126,7 @@ static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
     own_points points = sphere_points(count);
     const double half = sin(degrees * (AUR_PI / 360.0));
     for (size_t j = 0; j < count; ++j) {
-        /* By half the polar angle, of which small caps keep the digits. */
+        /* By half the polar angle, which preserves the digits of small caps. */
         const double sine = half * sqrt(aur_unit_double(aur_hash3(seed, j, 0)));
         const double phi = 2.0 * AUR_PI * aur_unit_double(aur_hash3(seed, j, 1));
         const double r = 2.0 * sine * sqrt(1.0 - sine * sine);
@@ -170,8 +170,8 @@ static void areas_of_caps_add_up(void **state) {
     }
 }
 
-/* Beside a spiral of `samples` points in the cap, each of which belongs to its nearest point: areas to the
- * spiral's error along the cells' edges, radii to its covering radius. */
+/* Against a spiral of `samples` points in the cap, each assigned to its nearest point: areas to the spiral's
+ * error along the cells' edges, radii to its covering radius. */
 static void cells_of_caps_hold_what_is_nearest(void **state) {
     (void)state;
     enum { COUNT = 24, SAMPLES = 100000 };
@@ -208,7 +208,7 @@ static void cells_of_caps_hold_what_is_nearest(void **state) {
 
 enum { WALK = 20000 };
 
-/* How often a walk around a circle comes to places where `there` is true. */
+/* The number of times that a walk around a circle enters the region where `there` is true. */
 static size_t arcs_of(const bool *there) {
     size_t arcs = 0;
     for (size_t k = 0; k < WALK; ++k)
@@ -273,8 +273,8 @@ static void sides_of_caps_are_counted(void **state) {
     }
 }
 
-/* One point has all of its cap; a cap of 90 degrees is the hemisphere; measures without caps say so. */
-static void caps_agree_with_what_is_known(void **state) {
+/* One point has all of its cap; a cap of 90 degrees is the hemisphere; measures without caps report that. */
+static void caps_agree_with_known_values(void **state) {
     (void)state;
     own_points points = random_in_cap(200, 90.0, 1), one = octahedron();
     memcpy(one.coordinates, one.coordinates + 12, 3 * sizeof(double));
@@ -464,7 +464,7 @@ static void rotate(own_points *points, double a, double b) {
     }
 }
 
-/* Each point twice, in one place or a few roundings apart: pairs share their cells. */
+/* Each point twice, at one position or a few roundings apart: pairs share their cells. */
 static void doubled_points_share_their_cells(void **state) {
     (void)state;
     own_points once = random_directions(40, 12), twice = sphere_points(80);
@@ -488,7 +488,7 @@ static void doubled_points_share_their_cells(void **state) {
             aur_series_destroy(cells);
         }
     }
-    for (size_t i = 0; i < 9; ++i) /* all but one in one place */
+    for (size_t i = 0; i < 9; ++i) /* all but one at one position */
         twice.coordinates[i] = i == 0 || i == 4 || i == 7 ? 1.0 : 0.0;
     twice.count = 3;
     aur_series *cells;
@@ -622,7 +622,7 @@ int main(void) {
         cmocka_unit_test(figures_are_those_of_the_table),
         cmocka_unit_test(areas_of_caps_add_up),
         cmocka_unit_test(cells_of_caps_hold_what_is_nearest),
-        cmocka_unit_test(caps_agree_with_what_is_known),
+        cmocka_unit_test(caps_agree_with_known_values),
         cmocka_unit_test(corners_are_as_far_from_three_points),
         cmocka_unit_test(covering_agrees_with_all_triples),
         cmocka_unit_test(covering_beyond_ninety_degrees),

@@ -1,5 +1,5 @@
-/* Ranks as processes that sockets join: what they do together is what one does, and what one does wrong is
- * told. */
+/* Ranks as processes connected by sockets: joint results equal those of one process, and the failure of one
+ * rank is reported. */
 #include "check.h"
 
 #include <poll.h>
@@ -65,7 +65,7 @@ static void end_all(void *state, int status) {
     _exit(status);
 }
 
-/* Runs `body` in every rank: 0 is what each returns, and `leaves` what rank 0 gets from aur_ranks_leave. */
+/* Runs `body` in every rank: each must return 0, and aur_ranks_leave of rank 0 must return `leaves`. */
 static void run(int (*body)(size_t rank), int leaves) {
     pid_t processes[RANKS];
     for (size_t a = 0; a < RANKS; ++a)
@@ -110,7 +110,7 @@ static void run(int (*body)(size_t rank), int leaves) {
             return __LINE__ % 90 + 1;                                                                        \
     } while (0)
 
-/* --- what all do together */
+/* --- joint work */
 
 static aur_result note_rank(void *context, size_t rank, size_t size, const void *data) {
     size_t *const next = context, value;
@@ -134,13 +134,13 @@ static int together(size_t rank) {
     WANT(aur_ranks_broadcast(aur_ranks_here(), &data, &size, NULL) == AUR_OK && size == LONG);
     for (size_t i = 0; i < LONG; ++i)
         WANT(data[i] == (char)(i * i >> 3));
-    /* More than a piece, of which the first word is looked at. */
+    /* Larger than a transfer block; the test checks the first word. */
     const size_t square = rank * rank;
     memcpy(data, &square, sizeof square);
     WANT(aur_ranks_gather(aur_ranks_here(), LONG, data, note_rank, &next, NULL) == AUR_OK);
     WANT(next == (rank == 0 ? RANKS : 1));
     free(data);
-    /* Rank 0 reads for all: the others do not look at their own path. */
+    /* Rank 0 reads for all: the others ignore their path. */
     WANT(aur_file_read(rank == 0 ? AUR_SOURCE_DIR "/LICENSE" : "/nowhere", SIZE_MAX / 2, &data, &size,
                        NULL) == AUR_OK);
     WANT(size > 1000 && strstr(data, "Apache License") != NULL);
@@ -160,7 +160,7 @@ static void ranks_say_the_same(void **state) {
 
 typedef struct work {
     double values[ITEMS][2];
-    size_t lengths[ITEMS]; /* of what is packed */
+    size_t lengths[ITEMS]; /* of the packed items */
     uint64_t done;         /* the sum of the numbers, from 1 on, of the items that this rank did */
     size_t fails;          /* the item that does; ITEMS: none */
 } work;
@@ -233,7 +233,7 @@ static int failures(size_t rank) {
     WANT(loop(&w, 2, (aur_progress){0}, &error) == AUR_ERROR_FORMAT);
     WANT(strncmp(error.message, "items: ", 7) == 0);
     w = (work){.fails = ITEMS};
-    WANT(loop(&w, 2, (aur_progress){0}, &error) == AUR_OK); /* and the job goes on */
+    WANT(loop(&w, 2, (aur_progress){0}, &error) == AUR_OK); /* and the job continues */
     return 0;
 }
 
@@ -247,7 +247,7 @@ static int stop(void *user, const char *what, uint64_t done, uint64_t total) {
     (void)done;
     (void)total;
     nanosleep(&(struct timespec){.tv_nsec = 1000000},
-              NULL); /* so that the items last until the others know */
+              NULL); /* so that the items last until the others have noticed */
     return *(const size_t *)user == 2;
 }
 
@@ -278,7 +278,7 @@ static void a_rank_of_its_own_is_told(void **state) {
     run(differ, 7);
 }
 
-/* A rank that has failed still takes what its parent is about to send, more than a socket holds. */
+/* A failed rank still receives what its parent is sending, more than a socket buffer holds. */
 static int tires(size_t rank) {
     enum { LONG = 3 << 20 };
     if (rank == 3) {

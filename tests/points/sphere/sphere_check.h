@@ -1,4 +1,4 @@
-/* What the tests of the sphere share. */
+/* Shared by the tests of the sphere. */
 #pragma once
 
 #include "check.h"

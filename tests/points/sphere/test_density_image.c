@@ -39,7 +39,7 @@ static void a_ramp_warps_by_a_root(void **state) {
 /* A random image with empty pixels, rows and columns. */
 enum { SIDE_X = 37, SIDE_Y = 23 };
 
-static void random_picture(float density[SIDE_X * SIDE_Y]) {
+static void random_image(float density[SIDE_X * SIDE_Y]) {
     for (size_t y = 0; y < SIDE_Y; ++y) {
         for (size_t x = 0; x < SIDE_X; ++x) {
             const double random = aur_unit_double(aur_hash3(5, x, y));
@@ -53,7 +53,7 @@ static void random_picture(float density[SIDE_X * SIDE_Y]) {
 static void inverse_and_density_agree(void **state) {
     (void)state;
     float density[SIDE_X * SIDE_Y];
-    random_picture(density);
+    random_image(density);
     aur_density_image *const image = make(SIDE_X, SIDE_Y, density);
     for (uint64_t i = 0; i < 5000; ++i) {
         const double square[2] = {aur_unit_double(aur_hash2(1, i)), aur_unit_double(aur_hash2(2, i))};
@@ -84,7 +84,7 @@ static void pixels_receive_their_mass(void **state) {
     (void)state;
     enum { GRID = 1500 };
     float density[SIDE_X * SIDE_Y];
-    random_picture(density);
+    random_image(density);
     aur_density_image *const image = make(SIDE_X, SIDE_Y, density);
     double received[SIDE_X * SIDE_Y] = {0};
     double sum = 0.0;
@@ -106,12 +106,12 @@ static void pixels_receive_their_mass(void **state) {
     aur_density_image_destroy(image);
 }
 
-/* Whatever the coordinates, NaN and infinities among them: what the nearer end of [0,1) gives, and nothing is
- * read beyond the tables (the sanitizers see that). */
+/* For any coordinates, NaN and infinities included: the value at the nearer end of [0,1), and no read beyond
+ * the tables (checked by the sanitizers). */
 static void coordinates_beyond_the_square_are_clamped(void **state) {
     (void)state;
     float density[SIDE_X * SIDE_Y];
-    random_picture(density);
+    random_image(density);
     aur_density_image *const image = make(SIDE_X, SIDE_Y, density);
     const double last = 0x1.fffffffffffffp-1;
     const double wild[][2] = {{1.0, last},     {2.0, last},      {1e300, last}, {INFINITY, last},

@@ -47,7 +47,7 @@ static void squares_are_lifted_by_the_map(void **state) {
     }
 }
 
-/* Every layout holds the same numbers, rounded where they are floats, whatever part is asked for. */
+/* Every layout has the same numbers, rounded for floats, for any requested part. */
 static void layouts_agree(void **state) {
     (void)state;
     enum { COUNT = 700, FIRST = 133, PART = 451 };
@@ -159,7 +159,7 @@ static void ggx_weighs_what_is_above_the_horizon(void **state) {
     assert_near(mass, integral, 1e-3);
 }
 
-/* Rotations keep lengths and angles, differ between seeds, and the mean of many random ones is none. */
+/* Rotations preserve lengths and angles, differ between seeds, and the mean of many random ones is zero. */
 static void rotations_are_rotations(void **state) {
     (void)state;
     double mean[3] = {0};
@@ -186,8 +186,8 @@ static void rotations_are_rotations(void **state) {
         assert_near(mean[d], 0.0, 5.0 * sqrt(1.0 / 3.0 / 4000.0));
 }
 
-/* Axial rotation keeps the energy, and a rotated set is the set rotated. */
-static void scrambling_by_rotation_keeps_the_set(void **state) {
+/* Axial rotation preserves the energy, and a rotated set is the set rotated. */
+static void scrambling_by_rotation_preserves_the_set(void **state) {
     (void)state;
     enum { COUNT = 256 };
     aur_directions_options options = {
@@ -227,7 +227,7 @@ static void octants_are_filled_evenly(void **state) {
     }
 }
 
-/* Points that come out of a file are those that went in: directions as they stand, squares lifted. */
+/* Points read from a file equal the written ones: directions unchanged, squares lifted. */
 static void files_are_sets(void **state) {
     (void)state;
     static const char path[] = "directions-of-a-file.csv";
@@ -304,7 +304,7 @@ static void options_can_grow(void **state) {
     (void)state;
     struct {
         aur_directions_options known;
-        int wish;
+        int option;
     } newer;
     memset(&newer, 0, sizeof newer);
     newer.known.size = sizeof(aur_directions_options);
@@ -316,7 +316,7 @@ static void options_can_grow(void **state) {
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_get_view(points)->count, 4);
     aur_points_destroy(points);
-    newer.wish = 1;
+    newer.option = 1;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL),
                      AUR_ERROR_UNSUPPORTED);
     const aur_directions_options unset = {.count = 4, .domain = AUR_DOMAIN_SPHERE};
@@ -326,7 +326,7 @@ static void options_can_grow(void **state) {
     assert_null(directions);
 }
 
-/* The table of all sets: no name twice, nothing missing, and every set that it names can be made. */
+/* The table of all sets: unique names, complete, and every listed set can be generated. */
 static void table_names_sets_that_exist(void **state) {
     (void)state;
     assert_null(aur_set_at(aur_set_count()));
@@ -339,7 +339,7 @@ static void table_names_sets_that_exist(void **state) {
     }
 }
 
-/* The sizes of sets are data, and a text that is made of them. */
+/* The sizes of sets are data, and a text derived from them. */
 static void sets_say_their_sizes(void **state) {
     (void)state;
     static const struct {
@@ -366,7 +366,7 @@ static void sets_say_their_sizes(void **state) {
         assert_true(set->maximum_size == cases[i].maximum && set->best_sizes == cases[i].best &&
                     set->size_base == cases[i].base);
     }
-    /* The sizes that a set lists are those that it has, and the last is the largest. */
+    /* The listed sizes of a set are its valid ones, and the last is the largest. */
     static const char *const some[] = {"t-design", "lebedev", "healpix"};
     for (size_t s = 0; s < 3; ++s) {
         const aur_set_description *const set = aur_set_find(some[s]);
@@ -401,7 +401,7 @@ int main(void) {
         cmocka_unit_test(weights_make_rules),
         cmocka_unit_test(ggx_weighs_what_is_above_the_horizon),
         cmocka_unit_test(rotations_are_rotations),
-        cmocka_unit_test(scrambling_by_rotation_keeps_the_set),
+        cmocka_unit_test(scrambling_by_rotation_preserves_the_set),
         cmocka_unit_test(octants_are_filled_evenly),
         cmocka_unit_test(files_are_sets),
         cmocka_unit_test(refuses_what_is_wrong),

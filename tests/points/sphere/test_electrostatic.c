@@ -115,8 +115,8 @@ static void nothing_moves_at_rest(void **state) {
     free(xyz);
 }
 
-/* Each prefix of six axes or more costs at most 3 % more than that many axes of their own; those of Sobol
- * points cost 5 % more at 15. */
+/* Each prefix of six axes or more has at most 3 % more energy than that many axes optimised separately; those
+ * of Sobol points have 5 % more at 15. */
 static void every_prefix_is_even(void **state) {
     (void)state;
     double *const all = charges("electrostatic", 60, AUR_DOMAIN_AXES);

@@ -87,7 +87,7 @@ static long double exact_angle(uint64_t phase) {
     return 2.0L * acosl(-1.0L) * ((long double)(int64_t)phase * 0x1p-64L);
 }
 
-/* The nearest double is half a unit in the last place away at most; long double adds its own error. */
+/* The nearest double is at most half a unit in the last place away; long double adds its error. */
 static void assert_nearest(double rounded, long double exact) {
     int exponent;
     frexp(rounded, &exponent);
@@ -164,7 +164,7 @@ static void caps_are_filled_evenly(void **state) {
     }
 }
 
-static void parts_do_not_depend_on_the_asking(void **state) {
+static void parts_do_not_depend_on_the_calls(void **state) {
     (void)state;
     enum { COUNT = 1000 };
     double *const whole = fibonacci("spherical-fibonacci", COUNT, AUR_DOMAIN_SPHERE);
@@ -184,8 +184,7 @@ static void parts_do_not_depend_on_the_asking(void **state) {
     free(whole);
 }
 
-/* The tolerance between instruction sets is none: every bit, at any start, length and place in memory,
- * whether streamed or not. */
+/* No tolerance between instruction sets: every bit, for any start, length and alignment, streamed or not. */
 static void kernels_agree_bit_for_bit(void **state) {
     (void)state;
 #if defined(AUR_PORTABLE)
@@ -260,7 +259,7 @@ int main(void) {
         cmocka_unit_test(hemisphere_is_the_first_half),
         cmocka_unit_test(caps_are_filled_evenly),
         cmocka_unit_test(kernels_agree_bit_for_bit),
-        cmocka_unit_test(parts_do_not_depend_on_the_asking),
+        cmocka_unit_test(parts_do_not_depend_on_the_calls),
         cmocka_unit_test(refuses_what_is_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

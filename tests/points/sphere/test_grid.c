@@ -57,7 +57,7 @@ static void shifts_of_each_level_are_as_good_as_fibonacci(void **state) {
     assert_near(ratio, 5.4, 0.3);
 }
 
-/* Points of a smaller size are the first ones of a larger one, and parts do not depend on the asking. */
+/* Points of a smaller size are the first ones of a larger one, and parts do not depend on the calls. */
 static void larger_grids_begin_with_smaller_ones(void **state) {
     (void)state;
     static const char *const keys[] = {"base=1,levels=4", "base=7,levels=3,progression=4", "base=20,levels=2",
@@ -120,7 +120,7 @@ static size_t shortest(size_t count, const double *uv, size_t centre, double len
  * shortest vectors; their ratio r_s (longest to shortest of b_{k-1}, b_k, b_{k+1}) lies between sqrt(3/2) and
  * sqrt 2 and is the same before and after an extension; N d_min^2 obeys its exact bound, and the unit cell,
  * whose area is 1/N, is what the three lengths enclose (Heron). */
-static void extension_keeps_the_cells(void **state) {
+static void extension_preserves_the_cells(void **state) {
     (void)state;
     static const size_t bases[] = {20, 33, 64, 89, 100};
     for (size_t b = 0; b < 5; ++b) {
@@ -158,8 +158,8 @@ static void extension_keeps_the_cells(void **state) {
     }
 }
 
-/* On the sphere the smallest distance stays what it is for spherical Fibonacci, 3.09/sqrt N, but for the
- * circles of 2^l points about the poles. */
+/* On the sphere the smallest distance remains that of spherical Fibonacci, 3.09/sqrt N, except on the circles
+ * of 2^l points about the poles. */
 static void distances_on_the_sphere_stay_large(void **state) {
     (void)state;
     static const char *const keys[] = {"base=64,levels=1", "base=20,levels=2", "base=144,levels=1"};
@@ -190,7 +190,7 @@ static void best_first_shift_beats_the_planar_rule(void **state) {
 
 /* Of 249 grids with one extension and the final shift, the rule for the plane picks the best of three shifts
  * in 56, the stretch that the sphere has on average in 220. */
-static void rules_find_the_best_shift_as_often_as_known(void **state) {
+static void rules_find_the_best_shift_at_the_expected_rate(void **state) {
     (void)state;
     size_t by_plane = 0, by_stretch = 0;
     for (uint64_t base = 8; base < 257; ++base) {
@@ -202,7 +202,7 @@ static void rules_find_the_best_shift_as_often_as_known(void **state) {
     assert_int_equal(by_stretch, 220);
 }
 
-/* The mean distance to a fine set of the hemisphere, in place of the series that the choice uses. */
+/* The mean distance to a fine set of the hemisphere, instead of the series that the selection uses. */
 static double distance_to_hemisphere(const double *p, size_t count, const double *fine) {
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
@@ -332,10 +332,10 @@ int main(void) {
         cmocka_unit_test(reproduces_golden_discrepancies),
         cmocka_unit_test(shifts_of_each_level_are_as_good_as_fibonacci),
         cmocka_unit_test(larger_grids_begin_with_smaller_ones),
-        cmocka_unit_test(extension_keeps_the_cells),
+        cmocka_unit_test(extension_preserves_the_cells),
         cmocka_unit_test(distances_on_the_sphere_stay_large),
         cmocka_unit_test(best_first_shift_beats_the_planar_rule),
-        cmocka_unit_test(rules_find_the_best_shift_as_often_as_known),
+        cmocka_unit_test(rules_find_the_best_shift_at_the_expected_rate),
         cmocka_unit_test(best_first_shift_is_the_best_on_the_hemisphere),
         cmocka_unit_test(shortest_vector_is_the_shortest),
         cmocka_unit_test(incomplete_sizes_draw_a_warning),

@@ -38,8 +38,7 @@ static size_t nearest_by_force(size_t count, const double *xyz, const double *q)
     return nearest;
 }
 
-/* The same computed distance may stand for two points that are equally far in truth; anything else must
- * agree. */
+/* Equal computed distances may belong to two points; anything else must agree. */
 static void check_nearest(const double *xyz, const double *q, size_t expected, uint64_t actual) {
     const double best = squared(xyz + 3 * expected, q);
     const double other = squared(xyz + 3 * actual, q);

@@ -118,9 +118,9 @@ static void inverses_round_trip(void **state) {
     }
 }
 
-/* Area is kept: the share of a fine grid that falls into a random cap is the share of the area, to the grid's
- * accuracy. A map that does not keep area is off by several percent. */
-static void area_is_kept(void **state) {
+/* Area is preserved: the share of a fine grid that falls into a random cap is the share of the area, to the
+ * grid's accuracy. A map that does not preserve area is off by several percent. */
+static void area_is_preserved(void **state) {
     (void)state;
     enum { SIDE = 256 };
     for (size_t m = 0; m < 4; ++m) {
@@ -165,7 +165,7 @@ int main(void) {
         cmocka_unit_test(lambert_and_polar_are_what_they_say),
         cmocka_unit_test(concentric_is_shirley_and_chiu),
         cmocka_unit_test(inverses_round_trip),
-        cmocka_unit_test(area_is_kept),
+        cmocka_unit_test(area_is_preserved),
         cmocka_unit_test(phases_turn_as_they_should),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

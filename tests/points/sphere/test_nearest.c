@@ -84,7 +84,7 @@ static void both_ends_are_one_axis(void **state) {
     aur_nearest_destroy(nearest);
 }
 
-static void points_without_a_place_are_refused(void **state) {
+static void points_without_a_position_are_refused(void **state) {
     (void)state;
     double points[6] = {1, 0, 0, 0, NAN, 0};
     aur_points_view view = aur_points_view_of(AUR_DOMAIN_SPHERE, 2, 3, points);
@@ -108,7 +108,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_are_those_of_a_linear_search),
         cmocka_unit_test(both_ends_are_one_axis),
-        cmocka_unit_test(points_without_a_place_are_refused),
+        cmocka_unit_test(points_without_a_position_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,7 @@ static void prepare_order(size_t m, size_t top, order_sums *sums) {
     }
 }
 
-/* Long doubles, so that what is measured is the table's own rounding. */
+/* Long doubles, so that the rounding of the table is measured. */
 static void add_point(size_t m, size_t top, const double point[3], long double start, long double weight,
                       order_sums *sums) {
     long double cosine = weight, sine = 0.0L, here = start, before = 0.0L;
@@ -120,8 +120,8 @@ static void designs_are_exact(void **state) {
         check_exact("t-design", aur_t_designs + r, 1);
 }
 
-/* Those beyond the table: the solver at a degree that takes no time, and a set that is made on request, which
- * the cache then gives. */
+/* Sets beyond the table: the solver at a fast degree, and a set generated on request, which the cache returns
+ * later. */
 static void designs_are_solved_for(void **state) {
     (void)state;
     const size_t half = aur_design_half(25);
@@ -178,7 +178,7 @@ static void products_are_exact(void **state) {
     }
 }
 
-/* Leopardi's own: regions of each collar, and areas that are equal because caps of whole regions end between
+/* Leopardi's construction: regions of each collar, and equal areas because caps of whole regions end between
  * the collars. */
 static void partitions_are_leopardis(void **state) {
     (void)state;
@@ -235,7 +235,7 @@ static void geodesic_grids_have_the_icosahedrons_symmetry(void **state) {
 }
 
 /* Weights of the rule with 14 points: 1/15 on the axes and 3/40 on the diagonals of the cube. */
-static void fourteen_points_have_known_weights(void **state) {
+static void fourteen_points_have_published_weights(void **state) {
     (void)state;
     aur_directions_options options = {.size = sizeof options};
     aur_directions_options_init(14, AUR_DOMAIN_SPHERE, &options, NULL);
@@ -279,7 +279,7 @@ int main(void) {
         cmocka_unit_test(products_are_exact),
         cmocka_unit_test(partitions_are_leopardis),
         cmocka_unit_test(geodesic_grids_have_the_icosahedrons_symmetry),
-        cmocka_unit_test(fourteen_points_have_known_weights),
+        cmocka_unit_test(fourteen_points_have_published_weights),
         cmocka_unit_test(other_sizes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -91,7 +91,7 @@ static double energy(size_t count, const double *wxyz) {
     return sqrt(64.0 / (15.0 * AUR_PI) - sum / (2.0 * (double)count * (double)count));
 }
 
-static void the_grid_keeps_its_points_and_its_energy(void **state) {
+static void the_grid_preserves_its_points_and_its_energy(void **state) {
     (void)state;
     double *const whole = plain("super-fibonacci-grid:base=50,levels=2", 3200);
     double *const part = plain("super-fibonacci-grid:base=50,levels=2", 400);
@@ -312,7 +312,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(super_fibonacci_is_the_published_formula),
         cmocka_unit_test(all_instruction_sets_and_parts_have_the_same_bits),
-        cmocka_unit_test(the_grid_keeps_its_points_and_its_energy),
+        cmocka_unit_test(the_grid_preserves_its_points_and_its_energy),
         cmocka_unit_test(lifted_grids_have_their_directions),
         cmocka_unit_test(lifted_grids_are_even),
         cmocka_unit_test(lifted_points_are_uniform),

@@ -1,4 +1,4 @@
-/* Sets that a program registers, and those of a file for each size, beside the library's own points. */
+/* Sets that a program registers, and a file for each size, compared with the library's points. */
 #include "check.h"
 
 #include <aureole/quality.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The points of the set that `user` names: what goes through the callback must come out unchanged. */
+/* The points of the set that `user` names: the callback must return them unchanged. */
 static aur_result copy_set(void *user, uint64_t count, size_t dimension, double *points, double *weights,
                            aur_error *error) {
     const aur_domain domain = dimension == 3 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_SQUARE;
@@ -85,7 +85,7 @@ static void callbacks_are_sets(void **state) {
     assert_non_null(strstr(error.message, "callback:mine"));
 }
 
-static void weights_of_callbacks_are_kept(void **state) {
+static void weights_of_callbacks_are_preserved(void **state) {
     (void)state;
     register_set("weighted", AUR_DOMAIN_SPHERE, true, "spherical-fibonacci");
     aur_points *points;
@@ -110,7 +110,7 @@ static aur_result refuse(void *user, uint64_t count, size_t dimension, double *p
     return aur_fail(error, AUR_ERROR_UNSUPPORTED, "no set of %d points", (int)count);
 }
 
-static void wrong_callbacks_are_told(void **state) {
+static void wrong_callbacks_are_reported(void **state) {
     (void)state;
     aur_points *points;
     aur_error error = {0};
@@ -173,8 +173,8 @@ static void a_file_for_each_size(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(callbacks_are_sets),
-        cmocka_unit_test(weights_of_callbacks_are_kept),
-        cmocka_unit_test(wrong_callbacks_are_told),
+        cmocka_unit_test(weights_of_callbacks_are_preserved),
+        cmocka_unit_test(wrong_callbacks_are_reported),
         cmocka_unit_test(a_file_for_each_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* The progress bar's arithmetic with a simulated clock: what real commands reported, recorded with the
- * processor's time of one thread, and series of known shape. */
+/* The progress bar's arithmetic with a simulated clock: recorded reports of real commands, with processor
+ * time of one thread, and series of known shape. */
 #include "program/cli/progress.h"
 
 #include <math.h>
@@ -231,7 +231,7 @@ static const moment sensors[] = {
     {0.129, "photons", 0.8905},  {0.1376, "photons", 0.9462}, {0.1463, "photons", 1},
     {0.2446, "sensors", 0.3333}, {0.3358, "sensors", 0.6667}, {0.3927, "sensors", 1}};
 
-/* How much there is to do is not known at first, or never. */
+/* The total is unknown at first, or forever. */
 static const moment error_by_paths[] = {
     {0.00172, "planning", NAN},      {0.01321, "planning", NAN},      {0.01463, "rendering", 0},
     {0.01938, "rendering", 0.00021}, {0.02531, "rendering", 0.00071}, {0.02885, "rendering", 0.00116},
@@ -363,8 +363,8 @@ static const series recorded[] = {
      3},
 };
 
-/* After a tenth of the time, what is left is known to a factor of two until a tenth is, unless nobody knows
- * how much there is to do; it is never negative, and the share never falls. */
+/* After a tenth of the time the remaining time is known to a factor of two until a tenth is left, unless the
+ * total is unknown; it is never negative, and the share never decreases. */
 static void test_recorded(void **state) {
     (void)state;
     for (size_t s = 0; s < sizeof recorded / sizeof recorded[0]; ++s) {
@@ -385,7 +385,7 @@ static void test_recorded(void **state) {
                 ++unknown;
                 continue;
             }
-            /* The first report after those says little of the rate. */
+            /* The first report after those gives little information on the rate. */
             if (m->time < 0.1 * end || left < 0.1 * end || (waited >= 0.0 && isnan(e.left)))
                 continue;
             if (!(e.left > 0.5 * left && e.left < 2.0 * left))
@@ -397,8 +397,8 @@ static void test_recorded(void **state) {
     }
 }
 
-/* Work at a constant rate, as one phase and as phases whose shares are right: the share and what is left are
- * exact. */
+/* Work at a constant rate, as one phase and as phases with correct shares: the share and the remaining time
+ * are exact. */
 static void test_exact(void **state) {
     (void)state;
     static const cli_phase phases[] = {{"a", 2.0}, {"left out", 0.0}, {"b", 5.0}, {NULL, 3.0}};
@@ -422,7 +422,7 @@ static void test_exact(void **state) {
     }
 }
 
-/* A resumed render begins where it was, and what is left goes by its rate since. */
+/* A resumed render begins at its former share, and the remaining time follows its rate since then. */
 static void test_resumed(void **state) {
     (void)state;
     cli_estimate e = cli_estimate_of(0, NULL);
@@ -432,8 +432,8 @@ static void test_resumed(void **state) {
     assert_true(fabs(e.left - 10.0) < 1e-9 && fabs(e.share - 0.95) < 1e-9);
 }
 
-/* Phases that nobody announced, fractions that fall, clocks that stand still, a total that is unknown: never
- * back, and no negative time. */
+/* Unannounced phases, decreasing fractions, stopped clocks, an unknown total: the share never decreases, no
+ * time is negative. */
 static void test_disorder(void **state) {
     (void)state;
     static const cli_phase phases[] = {{"b", 1.0}};

@@ -1,5 +1,4 @@
-/* Rendering to a wish: what stops it, that threads change nothing, and that what it says of its error is so.
- */
+/* Rendering to a target error: stopping criteria, independence of threads, and correct error reports. */
 #include "check.h"
 
 #include <math.h>
@@ -48,27 +47,27 @@ static aur_adaptive *adaptive(const fixture *f, const aur_render_options *render
 }
 
 /* By a renderer that has nothing prepared. */
-static aur_adaptive *ask_anew(fixture *fresh, const fixture *f, const aur_render_options *render,
-                              const aur_adaptive_options *target) {
+static aur_adaptive *create_fresh(fixture *fresh, const fixture *f, const aur_render_options *render,
+                                  const aur_adaptive_options *target) {
     fresh->scene = f->scene;
     assert_int_equal(aur_renderer_create(f->scene, &fresh->renderer, NULL), AUR_OK);
     return adaptive(fresh, render, target);
 }
 
-static aur_adaptive_report report_of(const aur_adaptive *asked) {
+static aur_adaptive_report report_of(const aur_adaptive *rendering) {
     aur_adaptive_report report = {.size = sizeof report};
-    assert_int_equal(aur_adaptive_get_report(asked, &report, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_get_report(rendering, &report, NULL), AUR_OK);
     return report;
 }
 
-static aur_image *picture_of(const aur_adaptive *asked) {
+static aur_image *image_of(const aur_adaptive *rendering) {
     aur_image *image = NULL;
-    assert_int_equal(aur_adaptive_develop(asked, true, &image, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_develop(rendering, true, &image, NULL), AUR_OK);
     return image;
 }
 
-static void assert_same_picture(const aur_adaptive *a, const aur_adaptive *b) {
-    aur_image *const x = picture_of(a), *const y = picture_of(b);
+static void assert_same_image(const aur_adaptive *a, const aur_adaptive *b) {
+    aur_image *const x = image_of(a), *const y = image_of(b);
     assert_int_equal(aur_image_channel_count(x), 6);
     assert_memory_equal(aur_image_data(x), aur_image_data(y),
                         aur_image_width(x) * aur_image_height(x) * 6 * sizeof(float));
@@ -76,7 +75,7 @@ static void assert_same_picture(const aur_adaptive *a, const aur_adaptive *b) {
     aur_image_destroy(y);
 }
 
-/* The upper end of the interval is below what was asked, and one thread makes the bits of three. */
+/* The upper end of the interval is below the target, and one thread gives the bits of three. */
 static void test_error(void **state) {
     const fixture *const f = *state;
     aur_adaptive_options target = {.size = sizeof target};
@@ -90,7 +89,7 @@ static void test_error(void **state) {
     assert_true(report.error_high <= 0.2);
     assert_true(report.rounds > 1 && report.degrees >= 1.0);
     assert_true(report.statistics.samples == (uint64_t)(report.samples_per_pixel * 40 * 24 + 0.5));
-    assert_same_picture(a, b);
+    assert_same_image(a, b);
     assert_string_equal(aur_adaptive_integrator(a), "path");
     assert_true(report.bias_high == 0.0);
     aur_adaptive_destroy(a);
@@ -98,7 +97,7 @@ static void test_error(void **state) {
 }
 
 static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
-    aur_image *const x = picture_of(a), *const y = picture_of(b);
+    aur_image *const x = image_of(a), *const y = image_of(b);
     const size_t pixels = aur_image_width(x) * aur_image_height(x);
     double sum = 0.0;
     for (size_t i = 0; i < 6 * pixels; ++i)
@@ -111,8 +110,8 @@ static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
     return sum;
 }
 
-/* Where nobody names an integrator, final gathering is found to be the better one in this box. Its image is
- * as far from path tracing's as the two intervals allow, and who names it with its bias has the same bits. */
+/* Without a named integrator, final gathering is selected in this box. Its image differs from path tracing's
+ * within the two intervals. Naming it with its bias gives the same bits. */
 static void test_choice(void **state) {
     const fixture *const f = *state;
     aur_adaptive_options target = {.size = sizeof target};
@@ -127,14 +126,14 @@ static void test_choice(void **state) {
     paths.integrator = "path";
     paths.seed = 7;
     fixture first, second;
-    aur_adaptive *const a = ask_anew(&first, f, &chosen, &target);
+    aur_adaptive *const a = create_fresh(&first, f, &chosen, &target);
     aur_adaptive_options again = target;
     again.bias = report_of(a).bias_room;
     named.integrator = aur_adaptive_integrator(a);
-    aur_adaptive *const b = ask_anew(&second, f, &named, &again);
+    aur_adaptive *const b = create_fresh(&second, f, &named, &again);
     aur_adaptive *const truth = adaptive(f, &paths, &target);
-    const aur_adaptive_report report = report_of(a), about_truth = report_of(truth);
-    assert_same_picture(a, b);
+    const aur_adaptive_report report = report_of(a), about_reference = report_of(truth);
+    assert_same_image(a, b);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
     assert_non_null(strstr(aur_adaptive_integrator(a), ",max_depth=-1"));
     assert_true(report.error_high <= target.error);
@@ -151,9 +150,9 @@ static void test_choice(void **state) {
     assert_true(report.race_count > 2 && taken == 1);
     assert_true(report.candidate_rays > 0 && report_of(b).candidate_rays == 0);
     assert_true(report.statistics.rays == report_of(b).statistics.rays + report.candidate_rays);
-    assert_true(square_distance(a, truth) <=
-                (report.error_high * report.error_high + about_truth.error_high * about_truth.error_high) *
-                    report.mean * report.mean);
+    assert_true(square_distance(a, truth) <= (report.error_high * report.error_high +
+                                              about_reference.error_high * about_reference.error_high) *
+                                                 report.mean * report.mean);
     aur_adaptive_destroy(a);
     aur_adaptive_destroy(b);
     aur_adaptive_destroy(truth);
@@ -161,7 +160,7 @@ static void test_choice(void **state) {
     aur_renderer_destroy(second.renderer);
 }
 
-/* Shares that the progress callback was told, and the rays then. */
+/* Shares passed to the progress callback, and the rays at that time. */
 typedef struct progress_record {
     aur_adaptive *adaptive;
     size_t count, unknown; /* reports with a share, and without */
@@ -183,8 +182,8 @@ static int keep_progress(void *user, const char *what, uint64_t done, uint64_t t
     return 0;
 }
 
-/* Renders, and compares what the rate since the first share says of the rays that are left with what was left
- * in truth, until a fifth of them is: returns the largest factor between the two. */
+/* Renders, and compares the remaining rays predicted by the rate since the first share with the actual ones,
+ * until a fifth of them is left; returns the largest ratio. */
 static double largest_factor(const fixture *f, const char *integrator, uint64_t seed, size_t side,
                              const aur_adaptive_options *target, progress_record *record) {
     aur_render_options options = small(1);
@@ -217,7 +216,7 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
     return largest;
 }
 
-/* A share is reported where it is known to a factor of two: nothing is better than a wrong number. */
+/* A share is reported only if it is known to a factor of two: no number is better than a wrong one. */
 static void test_progress(void **state) {
     const fixture *const f = *state;
     static progress_record record;
@@ -237,7 +236,7 @@ static void test_progress(void **state) {
     assert_true(largest_factor(f, "path", 1, 32, &target, &record) < 2.0 && record.count > 10);
 }
 
-/* Rounds that a clock would have stopped are made again without one. */
+/* Rounds that a clock would have stopped are repeated without one. */
 static void test_rounds_and_rays(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small(0);
@@ -247,19 +246,19 @@ static void test_rounds_and_rays(void **state) {
     aur_adaptive *const by_clock = adaptive(f, &options, &seconds);
     rounds.rounds = report_of(by_clock).rounds;
     aur_adaptive *const by_rounds = adaptive(f, &options, &rounds);
-    assert_same_picture(by_clock, by_rounds);
+    assert_same_image(by_clock, by_rounds);
     rays.rays = 400000;
     aur_adaptive *const by_rays = adaptive(f, &options, &rays);
     const uint64_t traced = report_of(by_rays).statistics.rays;
     assert_in_range(traced, 400000, 600000); /* a round adds at most a half */
-    assert_string_equal(aur_adaptive_integrator(by_rays), "path:max_depth=-1"); /* as the scene says */
+    assert_string_equal(aur_adaptive_integrator(by_rays), "path:max_depth=-1"); /* the scene's default */
     aur_adaptive_destroy(by_clock);
     aur_adaptive_destroy(by_rounds);
     aur_adaptive_destroy(by_rays);
 }
 
-/* For as many rays final gathering is chosen and told how large it is to be: path tracing has an error of 3.2
- * % then, final gathering at most 2 % with its bias. */
+/* For the same rays final gathering is selected and given the size: path tracing then has an error of 3.2 %,
+ * final gathering at most 2 % with its bias. */
 static void test_rays_make_the_pattern(void **state) {
     const fixture *const f = *state;
     aur_render_options chosen = small(0), paths = small(0);
@@ -271,30 +270,31 @@ static void test_rays_make_the_pattern(void **state) {
     target.measure = AUR_ERROR_MEASURE_MEAN;
     target.rays = 8000000;
     fixture fresh, other;
-    aur_adaptive *const a = ask_anew(&fresh, f, &chosen, &target), *const b = adaptive(f, &paths, &target);
+    aur_adaptive *const a = create_fresh(&fresh, f, &chosen, &target), *const b =
+                                                                           adaptive(f, &paths, &target);
     const aur_adaptive_report own = report_of(a), path = report_of(b);
     print_message("%g to %g by %s; path: %g to %g\n", own.error_low, own.error_high,
                   aur_adaptive_integrator(a), path.error_low, path.error_high);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
     assert_true(own.error_high < path.error_low);
-    /* A twentieth is kept for corrections, which may take less. */
+    /* A twentieth is reserved for corrections, which may use less. */
     assert_in_range(own.statistics.rays, target.rays * 19 / 20, target.rays * 3 / 2);
     /* Maps that are there already change no decision, and are not traced. */
     aur_adaptive *const again = adaptive(&fresh, &chosen, &target);
-    assert_same_picture(a, again);
+    assert_same_image(a, again);
     assert_true(report_of(again).candidate_rays == own.candidate_rays);
     assert_true(report_of(again).statistics.rays < own.statistics.rays);
     aur_render_options named = chosen;
     named.integrator = aur_adaptive_integrator(a);
     target.rays -= own.candidate_rays;
-    aur_adaptive *const alone = ask_anew(&other, f, &named, &target);
-    assert_same_picture(a, alone);
-    /* A twentieth is kept for corrections of the bias. */
+    aur_adaptive *const alone = create_fresh(&other, f, &named, &target);
+    assert_same_image(a, alone);
+    /* A twentieth is reserved for corrections of the bias. */
     assert_true(fabs((double)report_of(alone).statistics.rays + (double)own.candidate_rays -
                      (double)own.statistics.rays) < 0.05 * (double)(target.rays + own.candidate_rays));
-    aur_adaptive *const asked[] = {a, b, again, alone};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i)
-        aur_adaptive_destroy(asked[i]);
+    aur_adaptive *const rendering[] = {a, b, again, alone};
+    for (size_t i = 0; i < sizeof rendering / sizeof rendering[0]; ++i)
+        aur_adaptive_destroy(rendering[i]);
     aur_renderer_destroy(fresh.renderer);
     aur_renderer_destroy(other.renderer);
 }
@@ -306,8 +306,8 @@ static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t to
     return *calls < 1000 && done > total / 2;
 }
 
-/* What there is stays, and going on afterwards makes the bits of a run that nobody stopped. */
-static void test_cancelled_picture_is_kept(void **state) {
+/* A cancelled render keeps its samples, and resuming it gives the bits of an uninterrupted run. */
+static void test_cancelled_image_is_preserved(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small(1);
     options.integrator = "path";
@@ -317,26 +317,26 @@ static void test_cancelled_picture_is_kept(void **state) {
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.1;
     target.measure = AUR_ERROR_MEASURE_MEAN;
-    aur_adaptive *asked = NULL;
+    aur_adaptive *rendering = NULL;
     aur_error error = {0};
-    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &asked, NULL), AUR_OK);
-    assert_int_equal(aur_adaptive_run(asked, &error), AUR_ERROR_CANCELLED);
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &rendering, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(rendering, &error), AUR_ERROR_CANCELLED);
     assert_true(calls > 0);
-    aur_image *const image = picture_of(asked);
+    aur_image *const image = image_of(rendering);
     double sum = 0.0;
     for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image) * 6; ++i)
         sum += (double)aur_image_data(image)[i];
     assert_true(sum > 0.0);
     aur_image_destroy(image);
     calls = 1000; /* from here on nothing is stopped */
-    assert_int_equal(aur_adaptive_run(asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(rendering, NULL), AUR_OK);
     aur_render_options plain = small(3);
     plain.integrator = "path";
     aur_adaptive *const whole = adaptive(f, &plain, &target);
-    assert_same_picture(asked, whole);
-    assert_true(report_of(asked).error == report_of(whole).error);
+    assert_same_image(rendering, whole);
+    assert_true(report_of(rendering).error == report_of(whole).error);
     aur_adaptive_destroy(whole);
-    aur_adaptive_destroy(asked);
+    aur_adaptive_destroy(rendering);
 }
 
 static void test_bad_wishes(void **state) {
@@ -355,17 +355,18 @@ static void test_bad_wishes(void **state) {
         {.size = 0},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        aur_adaptive *asked = NULL;
+        aur_adaptive *rendering = NULL;
         aur_error error = {0};
-        assert_int_equal(aur_adaptive_create(f->renderer, NULL, &bad[i], &asked, &error), AUR_ERROR_ARGUMENT);
-        assert_null(asked);
+        assert_int_equal(aur_adaptive_create(f->renderer, NULL, &bad[i], &rendering, &error),
+                         AUR_ERROR_ARGUMENT);
+        assert_null(rendering);
         assert_true(error.message[0] != '\0');
     }
     aur_render_options options = small(1);
     options.integrator = "finalgahter";
-    aur_adaptive *asked = NULL;
-    assert_int_equal(aur_adaptive_create(f->renderer, &options, NULL, &asked, NULL), AUR_ERROR_NAME);
-    assert_null(asked);
+    aur_adaptive *rendering = NULL;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, NULL, &rendering, NULL), AUR_ERROR_NAME);
+    assert_null(rendering);
 }
 
 int main(void) {
@@ -374,7 +375,7 @@ int main(void) {
                                        cmocka_unit_test(test_progress),
                                        cmocka_unit_test(test_rounds_and_rays),
                                        cmocka_unit_test(test_rays_make_the_pattern),
-                                       cmocka_unit_test(test_cancelled_picture_is_kept),
+                                       cmocka_unit_test(test_cancelled_image_is_preserved),
                                        cmocka_unit_test(test_bad_wishes)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

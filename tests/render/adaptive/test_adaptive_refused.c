@@ -1,12 +1,13 @@
-/* Where final gathering cannot be made, or is stopped while it is made, asking goes on or ends in order. */
+/* If final gathering is not possible, or cancelled during its creation, the adaptive render continues or ends
+ * in order. */
 #include "render/scene/scene_text.h"
 
 #include "render/adaptive/candidate.h"
 
 #include <aureole-render/adaptive.h>
 
-/* A lamp that shines at only the camera: no photon is stored. */
-static const char lone_lamp[] =
+/* A light source that illuminates only the camera: no photon is stored. */
+static const char single_emitter[] =
     "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='180'/><rotate z='1' "
     "angle='20'/><translate z='4'/></transform><emitter type='area'><rgb name='radiance' "
     "value='5'/></emitter>"
@@ -15,7 +16,7 @@ static const char lone_lamp[] =
 static void paths_go_on_where_no_photon_is_stored(void **state) {
     (void)state;
     aur_renderer *renderer = NULL;
-    aur_scene *const scene = must_load_body(lone_lamp);
+    aur_scene *const scene = must_load_body(single_emitter);
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
@@ -29,14 +30,14 @@ static void paths_go_on_where_no_photon_is_stored(void **state) {
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.001; /* so small that final gathering is tried */
-    aur_adaptive *asked = NULL;
-    assert_int_equal(aur_adaptive_create(renderer, &options, &target, &asked, NULL), AUR_OK);
-    assert_int_equal(aur_adaptive_run(asked, &error), AUR_OK);
-    assert_int_equal(strncmp(aur_adaptive_integrator(asked), "path", 4), 0);
+    aur_adaptive *adaptive = NULL;
+    assert_int_equal(aur_adaptive_create(renderer, &options, &target, &adaptive, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(adaptive, &error), AUR_OK);
+    assert_int_equal(strncmp(aur_adaptive_integrator(adaptive), "path", 4), 0);
     aur_adaptive_report report = {.size = sizeof report};
-    assert_int_equal(aur_adaptive_get_report(asked, &report, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_get_report(adaptive, &report, NULL), AUR_OK);
     assert_true(report.error_high <= target.error);
-    aur_adaptive_destroy(asked);
+    aur_adaptive_destroy(adaptive);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
 }
@@ -48,8 +49,8 @@ static int count_down(void *user, const char *what, uint64_t done, uint64_t tota
     return *left == 0 || --*left == 0;
 }
 
-/* After each call, until nothing is left to be stopped: what was made is counted, and released. */
-static void a_trial_is_stopped_while_it_is_made(void **state) {
+/* Cancels after each call, until no call is left: what was created is counted, and released. */
+static void a_candidate_is_cancelled_during_creation(void **state) {
     (void)state;
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
@@ -85,6 +86,6 @@ static void a_trial_is_stopped_while_it_is_made(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(paths_go_on_where_no_photon_is_stored),
-                                       cmocka_unit_test(a_trial_is_stopped_while_it_is_made)};
+                                       cmocka_unit_test(a_candidate_is_cancelled_during_creation)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,5 @@
-/* The bias of an integrator, from replicas whose noise is far larger than it: by values that are put into
- * films, how often the interval contains what is known. */
+/* The bias of an integrator, from replicas with much larger noise: coverage of the interval for synthetic
+ * films of known bias. */
 #include "check.h"
 
 #include <math.h>

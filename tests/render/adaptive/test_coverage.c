@@ -8,8 +8,8 @@
 
 enum { SIDE = 6, RUNS = 600 };
 
-/* Two rounds of a path tracer that ends paths at random, and the error by every measure of what the image is
- * off 1. */
+/* Two rounds of a path tracer with Russian roulette, and the error of the image, whose exact value is 1, by
+ * every measure. */
 static void errors_of(aur_renderer *renderer, uint64_t seed, aur_adaptive_report *report,
                       double errors[AUR_ERROR_MEASURE_COUNT]) {
     aur_render_options render = {.size = sizeof render};

@@ -1,4 +1,4 @@
-/* The error of what a denoiser makes, estimated by two halves of the replicas. */
+/* The error of a denoised image, estimated from two halves of the replicas. */
 #include "check.h"
 
 #include <aureole-render/adaptive.h>
@@ -22,7 +22,7 @@ static aur_render_options small(void) {
     return options;
 }
 
-/* `value` is that of all pixels of what was made; below 0: that of the halves. */
+/* `value` is that of all pixels of the denoised image; below 0: that of the halves. */
 static aur_error_figures compare(fixture *f, float value, aur_error_measure measure) {
     const aur_render_options options = small();
     aur_adaptive_options target = {.size = sizeof target};
@@ -63,7 +63,7 @@ static double mean_of(const aur_image *image) {
     return sum;
 }
 
-/* What was not denoised has the halves' own error: the root of half of the mean square of their difference.
+/* Without denoising the error is that of the halves: the root of half of the mean square of their difference.
  */
 static void test_nothing_denoised(void **state) {
     (void)state;
@@ -103,7 +103,7 @@ static void test_bias_is_found(void **state) {
         print_message("%d: %.4f between %.4f and %.4f, true %.4f\n", m, figures.error, figures.low,
                       figures.high, error);
         assert_true(figures.low < error && error < figures.high);
-        if (m != AUR_ERROR_MEASURE_RELATIVE) /* of which few dark pixels have most */
+        if (m != AUR_ERROR_MEASURE_RELATIVE) /* dominated by few dark pixels */
             assert_near(figures.error, error, 0.1 * error);
         aur_image_destroy(truth);
         aur_image_destroy(flat);

@@ -1,5 +1,5 @@
-/* The race for the integrator in rooms that are made here: one where paths need least work and one where
- * gathers do, and scenes that leave no choice. */
+/* The race for the integrator in synthetic rooms: one where path tracing needs least work, one where final
+ * gathering does, and scenes with only one choice. */
 #include "check.h"
 
 #include <math.h>
@@ -16,14 +16,15 @@ static const char head[] =
     "origin='0,-.95,0' target='0,1,-.2' up='0,0,1'/></transform><film type='hdrfilm'><integer name='width' "
     "value='64'/><integer name='height' value='48'/><rfilter type='box'/></film></sensor>";
 
-/* A lamp that shines at the ceiling from under it: all light that is seen is reflected twice. */
+/* A light source that illuminates the ceiling from below: all visible light is reflected twice. */
 static const char indirect[] =
     "<shape type='cube'><bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' "
     "value='.7'/></bsdf>"
     "</bsdf></shape><shape type='rectangle'><transform name='to_world'><scale value='.1'/><translate z='.9'/>"
     "</transform><emitter type='area'><rgb name='radiance' value='50'/></emitter></shape></scene>";
 
-/* A checkerboard finer than pixels under an even sky: what varies is where a camera ray meets it. */
+/* A checkerboard finer than pixels under a uniform sky: the variance comes from the position of the camera
+ * ray's hit. */
 static const char direct[] =
     "<emitter type='constant'/><shape type='rectangle'><transform name='to_world'><scale "
     "value='20'/><translate "
@@ -75,8 +76,8 @@ static void end(fixture *f) {
     aur_scene_destroy(f->scene);
 }
 
-/* To so small an error everything is tried; the winner is the same with other seeds, so that chance in the
- * first blocks does not choose. */
+/* For a target that small all candidates are tried; the winner is the same with other seeds, so it is not
+ * decided by noise in the first blocks. */
 static void test_gathers_win(void **state) {
     (void)state;
     fixture f;
@@ -98,7 +99,7 @@ static void test_paths_win(void **state) {
     end(&f);
 }
 
-/* What a race costs is small next to the image, or there is none. */
+/* The cost of a race is small relative to the image, or there is none. */
 static void test_no_race(void **state) {
     (void)state;
     fixture f;

@@ -1,4 +1,4 @@
-/* What replicas say of their pixels. */
+/* Statistics of pixels from replicas. */
 #include "check.h"
 
 #include "render/adaptive/replicas.h"
@@ -34,8 +34,8 @@ static void end(fixture *f) {
     aur_scene_destroy(f->scene);
 }
 
-/* The variances by which a replica's samples are shared out come from the others: another sample of its own
- * changes none of them but by rounding, and all of the others'. */
+/* The variances that distribute a replica's samples come from the other replicas: an additional sample
+ * changes its own only by rounding, and those of all others. */
 static void test_own_values_do_not_count(void **state) {
     (void)state;
     fixture f;
@@ -118,8 +118,8 @@ static double product_of(const aur_replicas *replicas, size_t i, size_t j) {
     return sum;
 }
 
-/* What pixels beside each other in the same block of 8 x 8 say of tr C^2, pair by pair. */
-static double alike_of(const aur_replicas *replicas) {
+/* Covariances of neighbouring pixels in the same block of 8 x 8, contributions to tr C^2, pair by pair. */
+static double correlation_of(const aur_replicas *replicas) {
     double all = 0.0;
     for (size_t y0 = 0; y0 < HEIGHT; y0 += 8)
         for (size_t x0 = 0; x0 < WIDTH; x0 += 8) {
@@ -149,7 +149,7 @@ static void test_neighbours(void **state) {
     aur_replica_measure measure;
     aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
                          &(aur_pixel_measure){variances, f.spreads});
-    const double alike = alike_of(&f.replicas);
+    const double alike = correlation_of(&f.replicas);
     assert_true(alike > 0.0);
     assert_near(measure.deviations.alike, alike, 1e-9 * alike);
     end(&f);

@@ -1,5 +1,5 @@
-/* Where samples go: at the optimum, all pixels that got more would gain the same by one more sample
- * (Lagrange), and the variance falls to what was asked for. */
+/* The distribution of samples: at the optimum, all pixels with additional samples have equal marginal gain
+ * (Lagrange), and the variance falls to the target. */
 #include "check.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@ static double sum_after(size_t count, const double *variances, const uint32_t *b
     return sum;
 }
 
-/* A round to an error that the bound is known to exceed takes the samples that the square law needs, and five
- * in a hundred more at the most. */
+/* A round to a target certainly exceeded uses the samples of the square law, and at most five percent more.
+ */
 static void test_rounds_to_an_error_take_what_it_needs(void **state) {
     (void)state;
     for (double error = 0.01; error < 0.04; error *= 1.1) {
@@ -52,7 +52,7 @@ static void test_reaches_the_factor_at_equal_gains(void **state) {
         }
 }
 
-/* No pixel grows more than fourfold, none beyond the most, and none at all says so. */
+/* No pixel grows more than fourfold or beyond the maximum; a round without samples is reported. */
 static void test_limits(void **state) {
     (void)state;
     static const double variances[3] = {1e6, 1.0, 0.0};
@@ -67,8 +67,8 @@ static void test_limits(void **state) {
     assert_false(aur_raise_targets(3, none, 0.5, 1 << 24, ones));
 }
 
-/* A pixel that seems to have no variance goes along, at half the mean up to 32 samples, then at a quarter,
- * and fourfold a round. */
+/* A pixel with zero estimated variance gets half the mean up to 32 samples, then a quarter, and at most
+ * fourfold per round. */
 static void test_nobody_is_left_behind(void **state) {
     (void)state;
     static const double variances[4] = {1.0, 1.0, 1.0, 0.0};

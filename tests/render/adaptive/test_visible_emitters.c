@@ -1,5 +1,5 @@
-/* Lamps that are smaller than a pixel: what is told of them against their size in closed form, and images
- * to an error that do not end before they have met one. */
+/* Emitters smaller than a pixel: their estimated size against the closed form, and renders to a target error
+ * that must not end before a sample has hit one. */
 #include "check.h"
 
 #include <math.h>
@@ -27,12 +27,12 @@ static const char body[] =
 
 /* The pixel's side at distance 1 is 2 tan(22.5 degrees) / SIDE; the lamp's outline is an ellipse that differs
  * from a disk by less than its angle to the axis squared. */
-static double share_of_lamp(void) {
+static double share_of_emitter(void) {
     const double pixel = 2.0 * tan(22.5 * AUR_PI / 180.0) / SIDE;
     return AUR_PI * radius * radius / (distance * distance * pixel * pixel);
 }
 
-static void tells_the_size_of_a_lamp(void **state) {
+static void reports_the_size_of_an_emitter(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
     const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x1 = SIDE, .y1 = SIDE};
@@ -47,11 +47,11 @@ static void tells_the_size_of_a_lamp(void **state) {
     assert_int_equal(most, (SIDE / 2 - 1) * SIDE + SIDE / 2);
     /* The lamp gets a part of the 4096 points that its power has: 6.25 pi 10^-3 1000 of 400 / 2 more, 9 %.
      * The share is known to the root of one over 380 of them. */
-    const double share = share_of_lamp();
+    const double share = share_of_emitter();
     const double variance = 3.0 * radiance * radiance * share;
     print_message("share %g, variance %g of %g\n", share, visible.variance[most], variance);
     assert_near(visible.variance[most], variance, 0.25 * variance);
-    /* A replica is believed when it is expected to have met the lamp eight times. */
+    /* A replica is accepted if it is expected to have hit the emitter eight times. */
     const uint32_t few = (uint32_t)(4.0 / share), many = (uint32_t)(16.0 / visible.share[most]) + 1;
     assert_true(visible.share[most] >= share * 0.75);
     assert_true(few * visible.share[most] >= 8.0 ||
@@ -61,9 +61,9 @@ static void tells_the_size_of_a_lamp(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* A sample with several rays for lamps: n times as many meet one, and their mean has the n-th part of the
- * variance. Pixels with none have their own ray. */
-static void takes_more_rays_for_lamps(void **state) {
+/* A sample with several emitter rays: n times as many hit one, and their mean has 1/n of the variance. Pixels
+ * with none use their camera ray. */
+static void uses_more_rays_for_emitters(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
     const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x0 = 8, .x1 = SIDE, .y0 = 4, .y1 = SIDE};
@@ -86,7 +86,7 @@ static void takes_more_rays_for_lamps(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What a trial knows of its integrator is what the keys made of it, with their defaults. */
+/* A candidate's integrator settings are those of the keys, with their defaults. */
 static void knows_its_integrator(void **state) {
     (void)state;
     static const struct {
@@ -116,7 +116,7 @@ static void knows_its_integrator(void **state) {
         const aur_integrator *const made = aur_render_integrator(candidate.replicas.renders[0]);
         assert_int_equal(candidate.pattern_samples, cases[i].pattern_samples);
         assert_true((made->emitter_probes != NULL) == cases[i].probes);
-        assert_true(made->refines_emitter_edges == (i == 3)); /* `edges` is 128 where nobody says */
+        assert_true(made->refines_emitter_edges == (i == 3)); /* `edges` is 128 by default */
         assert_non_null(candidate.visible.share);
         aur_candidate_release(&candidate);
     }
@@ -124,7 +124,7 @@ static void knows_its_integrator(void **state) {
     aur_scene_destroy(scene);
 }
 
-static void meets_lamps(void **state) {
+static void meets_emitters(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
@@ -137,7 +137,7 @@ static void meets_lamps(void **state) {
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.3;
-    const double emitter = radiance * share_of_lamp();
+    const double emitter = radiance * share_of_emitter();
     for (size_t seed = 0; seed < 8; ++seed) {
         aur_adaptive *adaptive = NULL;
         aur_image *image = NULL;
@@ -163,8 +163,8 @@ static void meets_lamps(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_the_size_of_a_lamp),
-                                       cmocka_unit_test(takes_more_rays_for_lamps),
-                                       cmocka_unit_test(knows_its_integrator), cmocka_unit_test(meets_lamps)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reports_the_size_of_an_emitter), cmocka_unit_test(uses_more_rays_for_emitters),
+        cmocka_unit_test(knows_its_integrator), cmocka_unit_test(meets_emitters)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

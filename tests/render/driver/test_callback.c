@@ -9,7 +9,8 @@
 
 static const char *const scene_path = AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml";
 
-/* More samples than a tile asks between (1 << 14 rays), so that a preview asks whether to stop, too. */
+/* More samples than a tile traces between callbacks (1 << 14 rays), so that a preview polls for cancellation,
+ * too. */
 enum { SIDE = 16, SAMPLES = 128 };
 
 typedef struct preview {
@@ -78,7 +79,7 @@ static void finish(fixture *f) {
     alarm(0);
 }
 
-/* Images inside and outside are those of renders by themselves. */
+/* Images inside and outside the callback equal those of separate renders. */
 static void renders_previews(void **state) {
     (void)state;
     static const char *const integrators[] = {"path",
@@ -114,14 +115,14 @@ static void renders_previews_of_an_error(void **state) {
     aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.progress = (aur_progress){show, &shown};
-    aur_adaptive_options wish = {.size = sizeof wish};
-    aur_adaptive_options_init(&wish, NULL);
-    wish.rounds = 2;
-    aur_adaptive *ask;
-    assert_int_equal(aur_adaptive_create(f.outer, &options, &wish, &ask, NULL), AUR_OK);
-    assert_int_equal(aur_adaptive_run(ask, NULL), AUR_OK);
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.rounds = 2;
+    aur_adaptive *adaptive;
+    assert_int_equal(aur_adaptive_create(f.outer, &options, &target, &adaptive, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(adaptive, NULL), AUR_OK);
     assert_int_equal(shown.calls, 2);
-    aur_adaptive_destroy(ask);
+    aur_adaptive_destroy(adaptive);
     finish(&f);
 }
 

@@ -1,11 +1,12 @@
-/* A limit on what light after the first surface adds to a sample. */
+/* Clamping of the light that later path vertices add to a sample. */
 #include "render/scene/scene_text.h"
 
 #include <aureole-render/adaptive.h>
 
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
-/* A small bright lamp before a mirror and a grey wall, so that some samples are fireflies; it is seen. */
+/* A small bright emitter in front of a mirror and a grey wall, so that some samples are fireflies; it is
+ * visible. */
 static const char body[] =
     "<shape type='rectangle'><transform name='to_world'><scale value='4'/><rotate y='1' "
     "angle='180'/><translate "
@@ -33,8 +34,8 @@ static aur_image *render(const aur_scene *scene, const char *integrator, double 
     return image;
 }
 
-/* What a limit leaves and what it takes away are together the image without one; of single samples no more is
- * left than the limit and what the first surface itself sends. */
+/* The clamped image plus the removed light is the image without a limit; single samples are at most the limit
+ * plus the first surface's emission. */
 static void takes_no_more_than_it_says(void **state) {
     (void)state;
     static const char *const integrators[][2] = {

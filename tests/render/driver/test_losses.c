@@ -1,4 +1,4 @@
-/* What a render counts of samples that are left out or cut, and what it says of them. */
+/* Counts and reports of samples that a render discards or truncates. */
 #include "render/scene/scene_text.h"
 
 #include <aureole-render/render.h>

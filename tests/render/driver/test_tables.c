@@ -1,4 +1,4 @@
-/* Every row of every table: its keys are told whole, and their defaults are values that may be given. */
+/* Every row of every table: its keys are printed in full, and their defaults are valid values. */
 #include "check.h"
 
 #include <aureole-render/render.h>
@@ -15,7 +15,7 @@ static void check_key(const aur_table *table, const aur_row *row, const aur_key 
     assert_true(key->offset + key->size <= sizeof fields);
     if (key->default_text != NULL && !key->computed && key->type != AUR_KEY_ITEM)
         assert_true(aur_key_parse(key, key->default_text, fields, sizeof expected, expected));
-    assert_ptr_equal(aur_row_find_key(row, key->name), key); /* no name stands twice */
+    assert_ptr_equal(aur_row_find_key(row, key->name), key); /* names are unique */
 }
 
 static void check_table(const aur_table *table) {
@@ -28,7 +28,7 @@ static void check_table(const aur_table *table) {
     }
 }
 
-static void tells_every_key_whole(void **state) {
+static void prints_every_key_in_full(void **state) {
     (void)state;
     for (size_t t = 0; aur_table_at(t) != NULL; ++t)
         check_table(aur_table_at(t));
@@ -37,6 +37,6 @@ static void tells_every_key_whole(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_every_key_whole)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(prints_every_key_in_full)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,9 +70,9 @@ static int tear_down(void **state) {
     return 0;
 }
 
-/* Steps of any size, by any number of threads, are one render of all samples; a film that was saved on the
- * way and loaded into another render goes on to the same bits, errors and counts, by filters that reach
- * other pixels and by one that does not. */
+/* Steps of any size, by any number of threads, equal one render of all samples. A film that was saved and
+ * loaded into another render continues to the same bits, errors and counts, with filters that reach other
+ * pixels and with one that does not. */
 static void steps_are_one_render(void **state) {
     const fixture *const f = *state;
     static const char *const integrators[] = {"path", "aov:aovs=(n:sample_count,v:variance,d:depth)", "path",
@@ -165,7 +165,7 @@ static int stop_at(void *user, const char *what, uint64_t done, uint64_t total) 
 }
 
 /* Pixels have the samples that a step gives each of them. */
-static void pixels_get_samples_of_their_own(void **state) {
+static void pixels_get_independent_samples(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small("path", 1);
     options.filter = "box";
@@ -183,8 +183,8 @@ static void pixels_get_samples_of_their_own(void **state) {
     aur_render_destroy(render);
 }
 
-/* What is stopped keeps what it has, and goes on to the same bits. */
-static void a_stopped_step_is_kept_and_continued(void **state) {
+/* A stopped render keeps its samples, and continues to the same bits. */
+static void a_stopped_step_is_preserved_and_continued(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small("path", 2);
     aur_image *whole = NULL;
@@ -223,8 +223,8 @@ static int stop_after(void *user, const char *what, uint64_t done, uint64_t tota
     return --*calls == 0;
 }
 
-/* An image of one tile: it is stopped within the tile, keeps samples of it where the integrator adds one
- * after the other, none of it otherwise, and goes on to the same bits. */
+/* An image of one tile, stopped within the tile: it keeps those samples if the integrator adds them one by
+ * one, none otherwise, and continues to the same bits. */
 static void a_tile_is_stopped_within(void **state) {
     const fixture *const f = *state;
     static const char *const integrators[] = {"path", "ao:samples=1024",
@@ -252,11 +252,10 @@ static void a_tile_is_stopped_within(void **state) {
     }
 }
 
-/* The squared error that the steps tell is right on average for independent samples: over pixels it is chi^2
- * with 7 degrees of freedom each. The reference has 64 times the samples, so its own variance adds 1/64. The
- * ratio of the two mean squares over P = 1665 pixels and 3 channels that move together has a relative
- * standard deviation below sqrt((2/7 + k) / P) with k = 2 + the excess kurtosis of a pixel's mean, at most 20
- * here: .12; 5 of them are allowed. */
+/* The estimated squared error is unbiased for independent samples: over pixels it is chi^2 with 7 degrees of
+ * freedom each. The reference has 64 times the samples, so its variance adds 1/64. The ratio of the two mean
+ * squares over P = 1665 pixels and 3 correlated channels has a relative standard deviation below sqrt((2/7 +
+ * k) / P) with k = 2 + the excess kurtosis of a pixel's mean, at most 20 here: .12; 5 of them are allowed. */
 static void the_error_is_that_of_independent_samples(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small("direct", 2);
@@ -319,7 +318,8 @@ static void the_error_is_that_of_the_steps(void **state) {
     aur_render_destroy(render);
 }
 
-/* A struct whose size is not set, or of a newer library and used, is refused; an unused one is not. */
+/* A struct with an unset size, or from a newer library with a used new field, is rejected; with unused fields
+ * it is not. */
 static void options_of_other_sizes(void **state) {
     const fixture *const f = *state;
     aur_error error = {0};
@@ -373,8 +373,8 @@ static void damaged_films_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_one_render),
                                        cmocka_unit_test(parts_are_merged),
-                                       cmocka_unit_test(pixels_get_samples_of_their_own),
-                                       cmocka_unit_test(a_stopped_step_is_kept_and_continued),
+                                       cmocka_unit_test(pixels_get_independent_samples),
+                                       cmocka_unit_test(a_stopped_step_is_preserved_and_continued),
                                        cmocka_unit_test(a_tile_is_stopped_within),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),
                                        cmocka_unit_test(the_error_is_that_of_the_steps),

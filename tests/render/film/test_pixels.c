@@ -66,7 +66,7 @@ static void compare(const char *integrator, aur_renderer *renderer, aur_image *c
 }
 
 /* Without packets: the last bits of a packet's rays may depend on which pixels share it. */
-static void pixels_have_the_bits_of_even_pictures(void **state) {
+static void pixels_are_identical_to_even_images(void **state) {
     (void)state;
     static const struct {
         const char *integrator;
@@ -98,7 +98,7 @@ static void pixels_have_the_bits_of_even_pictures(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Where pixels share what they find, the pixels of a tile have as many samples as the one that wants most. */
+/* If pixels share results, the pixels of a tile have the largest requested number of samples. */
 static void tiles_stay_whole(void **state) {
     (void)state;
     aur_scene *scene = NULL;
@@ -120,7 +120,7 @@ static void tiles_stay_whole(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_have_the_bits_of_even_pictures),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_identical_to_even_images),
                                        cmocka_unit_test(tiles_stay_whole)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

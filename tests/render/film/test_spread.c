@@ -102,7 +102,7 @@ static void take_samples(const fixture *f, aur_render *render) {
     aur_sampler_destroy(sampler);
 }
 
-/* What sample `i` of all weighs in a pixel. */
+/* The weight of sample `i` of all in a pixel. */
 static double weight_of(const aur_filter *filter, size_t i, size_t pixel) {
     const size_t other = i / SAMPLES, s = i % SAMPLES;
     const double x = (double)(other % WIDTH) - (double)(pixel % WIDTH);
@@ -134,7 +134,7 @@ static void pixels_are_the_weighed_means_of_all_samples(void **state) {
                     most = w != 0.0 ? fmax(most, value) : most;
                 }
             }
-            /* The table is wrong by 1e-5 of the filter's peak at most: of so many samples' weights. */
+            /* The table has an error of at most 1e-5 of the filter's peak, times the number of samples. */
             const double bound = 1e-4 * most * (1.0 + sizes) / weight;
             for (size_t c = 0; c < 3; ++c)
                 assert_true(fabs((double)image->data[3 * pixel + c] - sums[c] / weight) <= bound);
@@ -144,8 +144,8 @@ static void pixels_are_the_weighed_means_of_all_samples(void **state) {
     }
 }
 
-/* Brute force: a pixel is the ratio of two sums over cells of pixels, s / w = v, whose steps of one sample
- * are independent: the variance of the mean of s - v w over a cell's steps, added over cells, over w^2. */
+/* Brute force: a pixel is the ratio of two sums over cells of pixels, s / w = v, with independent steps of
+ * one sample: the variance of the mean of s - v w over a cell's steps, added over cells, over w^2. */
 static double brute_error(const aur_filter *filter, size_t cell, size_t pixel) {
     enum { CELLS_MOST = PIXELS };
     static double sums[CELLS_MOST][SAMPLES][2]; /* of red, and of the weights */
@@ -245,8 +245,7 @@ static void assert_is_of_parts(const fixture *f, const aur_render_options *optio
     aur_render_destroy(all);
 }
 
-/* Neither threads, nor crops that cut tiles or of one pixel, nor parts, nor a film that goes on from a file
- * change a bit. */
+/* Threads, crops that cut tiles or have one pixel, parts, and films continued from a file change no bit. */
 static void nothing_changes_a_bit(void **state) {
     const fixture *const f = *state;
     static const char *const integrators[] = {"path", "aov:aovs=(n:sample_count,v:variance,d:depth)", "ao",
@@ -267,10 +266,10 @@ static void nothing_changes_a_bit(void **state) {
         }
 }
 
-/* Cells count by their means: where some pixels have many more samples than others, the image of a plain
- * function of the film is still the filtered one, as it would not be if all samples weighed the same. The
- * scene is a camera that sees depth alone, whose samples have no noise but that of their places. */
-static void cells_count_alike_with_any_number_of_samples(void **state) {
+/* Cells are weighted by their means. If some pixels have many more samples than others, the image of a simple
+ * function of the film is still the filtered one; with equal weights of all samples it would not be. The
+ * scene is a camera that sees only depth: its only noise is the samples' positions. */
+static void cells_have_equal_weights_for_any_number_of_samples(void **state) {
     const fixture *const f = *state;
     aur_render_options options = options_of("aov:aovs=(d:depth)", "gaussian");
     options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
@@ -367,7 +366,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
                                        cmocka_unit_test(errors_are_those_of_the_steps),
                                        cmocka_unit_test(nothing_changes_a_bit),
-                                       cmocka_unit_test(cells_count_alike_with_any_number_of_samples),
+                                       cmocka_unit_test(cells_have_equal_weights_for_any_number_of_samples),
                                        cmocka_unit_test(gathers_count_where_they_lie),
                                        cmocka_unit_test(small_images)};
     return cmocka_run_group_tests(tests, set_up, tear_down);

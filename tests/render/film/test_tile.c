@@ -23,9 +23,9 @@ static aur_image *render(const aur_scene *scene, const char *integrator, const s
     return image;
 }
 
-/* A crop that cuts through tiles and blocks of 4 x 4 pixels is a part of the whole image to the bit, though
- * packets, shared patterns and the search for edges look at neighbours. */
-static void a_crop_is_a_part_of_the_picture(void **state) {
+/* A crop that cuts through tiles and blocks of 4 x 4 pixels is bit-identical to that part of the whole image,
+ * though packets, shared patterns and edge detection use neighbours. */
+static void a_crop_equals_a_part_of_the_image(void **state) {
     (void)state;
     static const char *const integrators[] = {"path",
                                               "path:interleaved=true,rr_depth=2",
@@ -53,6 +53,6 @@ static void a_crop_is_a_part_of_the_picture(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_crop_is_a_part_of_the_picture)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_crop_equals_a_part_of_the_image)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

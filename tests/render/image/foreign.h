@@ -1,5 +1,4 @@
-/* EXR files as other programs write them, made with OpenEXR itself: tiles, windows, every type and
- * compression.
+/* EXR files as other programs write them, generated with OpenEXR: tiles, windows, every type and compression.
  */
 #pragma once
 
@@ -18,7 +17,7 @@ typedef struct foreign_file {
     int tile;
 } foreign_file;
 
-/* Channels in the order in which OpenEXR keeps them: half, half, float, uint. */
+/* Channels in OpenEXR's order: half, half, float, uint. */
 static const char *const foreign_names[] = {"B", "id.number", "R", "depth.Z"};
 static const exr_pixel_type_t foreign_types[] = {EXR_PIXEL_HALF, EXR_PIXEL_UINT, EXR_PIXEL_HALF,
                                                  EXR_PIXEL_FLOAT};

@@ -1,4 +1,4 @@
-/* What the tests of images share: images with known pixels, and comparing two of them value by value. */
+/* Shared by the tests of images: images with known pixels, and comparing two of them value by value. */
 #pragma once
 
 #include <stdio.h>
@@ -16,8 +16,8 @@ static inline void assert_success(aur_result result, const aur_error *error) {
     assert_int_equal(result, AUR_OK);
 }
 
-/* Values in [0, 4), hashed from their place. */
-static inline aur_image *random_picture(size_t width, size_t height, size_t channel_count) {
+/* Values in [0, 4), hashed from their position. */
+static inline aur_image *random_image(size_t width, size_t height, size_t channel_count) {
     aur_image *image;
     aur_error error;
     assert_success(aur_image_create(width, height, channel_count, &image, &error), &error);
@@ -26,8 +26,8 @@ static inline aur_image *random_picture(size_t width, size_t height, size_t chan
     return image;
 }
 
-static inline aur_image *flat_picture(size_t width, size_t height, float r, float g, float b) {
-    aur_image *const image = random_picture(width, height, 3);
+static inline aur_image *flat_image(size_t width, size_t height, float r, float g, float b) {
+    aur_image *const image = random_image(width, height, 3);
     for (size_t i = 0; i < width * height; ++i) {
         image->data[3 * i] = r;
         image->data[3 * i + 1] = g;
@@ -36,20 +36,20 @@ static inline aur_image *flat_picture(size_t width, size_t height, float r, floa
     return image;
 }
 
-static inline aur_image *read_picture(const char *path) {
+static inline aur_image *read_image(const char *path) {
     aur_image *image;
     aur_error error;
     assert_success(aur_image_read(path, &image, &error), &error);
     return image;
 }
 
-static inline void write_picture(const char *path, const aur_image *image,
-                                 const aur_image_write_options *options) {
+static inline void write_image(const char *path, const aur_image *image,
+                               const aur_image_write_options *options) {
     aur_error error;
     assert_success(aur_image_write(path, image, options, &error), &error);
 }
 
-static inline void assert_same_picture(const aur_image *a, const aur_image *b) {
+static inline void assert_same_image(const aur_image *a, const aur_image *b) {
     assert_int_equal(a->width, b->width);
     assert_int_equal(a->height, b->height);
     assert_int_equal(a->channel_count, b->channel_count);

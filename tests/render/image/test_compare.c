@@ -11,10 +11,10 @@ static void check_metric(const aur_image *reference, const aur_image *image, aur
 }
 
 /* References 0.5, 1, 0 and images 1, 1.5, 0.25: every term is the same in every pixel. */
-static void test_flat_pictures(void **state) {
+static void test_flat_images(void **state) {
     (void)state;
-    aur_image *const reference = flat_picture(7, 3, 0.5f, 1.0f, 0.0f);
-    aur_image *const image = flat_picture(7, 3, 1.0f, 1.5f, 0.25f);
+    aur_image *const reference = flat_image(7, 3, 0.5f, 1.0f, 0.0f);
+    aur_image *const image = flat_image(7, 3, 1.0f, 1.5f, 0.25f);
     const double mse = (0.25 + 0.25 + 0.0625) / 3.0;
     const double relmse[] = {0.25 / 0.26, 0.25 / 1.01, 0.0625 / 0.01};
     check_metric(reference, image, AUR_IMAGE_MSE, (double[]){0.25, 0.25, 0.0625, mse});
@@ -34,10 +34,10 @@ static void test_flat_pictures(void **state) {
 }
 
 /* Against a sum in another order and with no shared code. */
-static void test_random_pictures(void **state) {
+static void test_random_images(void **state) {
     (void)state;
-    aur_image *const reference = random_picture(31, 17, 3);
-    aur_image *const image = random_picture(31, 17, 4); /* other values, and an alpha that must not count */
+    aur_image *const reference = random_image(31, 17, 3);
+    aur_image *const image = random_image(31, 17, 4); /* other values, and an alpha that must not count */
     double sum[3] = {0}, mean[3] = {0};
     for (size_t i = 31 * 17; i-- > 0;) {
         for (size_t c = 0; c < 3; ++c) {
@@ -59,10 +59,10 @@ static void test_random_pictures(void **state) {
     aur_image_destroy(reference);
 }
 
-static void test_equal_pictures_are_equal(void **state) {
+static void test_equal_images_are_equal(void **state) {
     (void)state;
-    aur_image *const image = random_picture(13, 11, 3);
-    aur_image *const black = flat_picture(2, 2, 0, 0, 0);
+    aur_image *const image = random_image(13, 11, 3);
+    aur_image *const black = flat_image(2, 2, 0, 0, 0);
     for (int metric = 0; metric < AUR_IMAGE_METRIC_COUNT; ++metric) {
         check_metric(image, image, (aur_image_metric)metric, (double[4]){0});
         check_metric(black, black, (aur_image_metric)metric, (double[4]){0});
@@ -91,10 +91,10 @@ static void assert_not_comparable(const aur_image *reference, const aur_image *i
 
 static void test_what_cannot_be_compared(void **state) {
     (void)state;
-    aur_image *const reference = random_picture(8, 6, 3);
-    aur_image *const other_size = random_picture(6, 8, 3);
-    aur_image *const colorless = random_picture(8, 6, 5);
-    aur_image *const broken = random_picture(8, 6, 3);
+    aur_image *const reference = random_image(8, 6, 3);
+    aur_image *const other_size = random_image(6, 8, 3);
+    aur_image *const colorless = random_image(8, 6, 5);
+    aur_image *const broken = random_image(8, 6, 3);
     assert_not_comparable(reference, other_size, "8 x 6 pixels, the image 6 x 8");
     assert_not_comparable(reference, colorless, "no channels R, G, B");
     broken->data[(2 * 8 + 5) * 3 + 1] = NAN;
@@ -120,8 +120,8 @@ static void test_what_cannot_be_compared(void **state) {
 static void test_difference(void **state) {
     (void)state;
     enum { WIDTH = 101 };
-    aur_image *const reference = flat_picture(WIDTH, 1, 1, 1, 1);
-    aur_image *const image = flat_picture(WIDTH, 1, 1, 1, 1);
+    aur_image *const reference = flat_image(WIDTH, 1, 1, 1, 1);
+    aur_image *const image = flat_image(WIDTH, 1, 1, 1, 1);
     for (size_t x = 0; x < WIDTH; ++x)
         image->data[3 * x + x % 3] += (x % 2 == 0 ? 1.0f : -1.0f) * (float)x / 100.0f;
     aur_image *difference, *scaled;
@@ -148,7 +148,7 @@ static void test_difference(void **state) {
 
 static void test_downsample(void **state) {
     (void)state;
-    aur_image *const image = random_picture(5, 3, 2);
+    aur_image *const image = random_image(5, 3, 2);
     for (size_t i = 0; i < 30; ++i)
         image->data[i] = (float)i; /* pixel (x, y): 10 y + 2 x and one more */
     aur_image *half, *all, *same;
@@ -157,14 +157,14 @@ static void test_downsample(void **state) {
     assert_int_equal(half->width, 3);
     assert_int_equal(half->height, 2);
     assert_string_equal(half->channel_names[1], "A");
-    /* Full blocks: 10 y + 2 x at the middle; the last column and row have their own middle only. */
+    /* Full blocks: 10 y + 2 x at the centre; the last column and row have separate centres. */
     static const float expected[] = {6, 7, 10, 11, 13, 14, 21, 22, 25, 26, 28, 29};
     assert_memory_equal(half->data, expected, sizeof expected);
     assert_success(aur_image_downsample(image, 1000, &all, &error), &error);
     assert_int_equal(all->width * all->height, 1);
     assert_true(all->data[0] == 14.0f && all->data[1] == 15.0f);
     assert_success(aur_image_downsample(image, 1, &same, &error), &error);
-    assert_same_picture(image, same);
+    assert_same_image(image, same);
     aur_image_destroy(same);
     assert_int_equal(aur_image_downsample(image, 0, &same, &error), AUR_ERROR_ARGUMENT);
     aur_image_destroy(all);
@@ -174,7 +174,7 @@ static void test_downsample(void **state) {
 
 static void test_select(void **state) {
     (void)state;
-    aur_image *const image = random_picture(3, 2, 4);
+    aur_image *const image = random_image(3, 2, 4);
     aur_image *selected;
     aur_error error;
     assert_success(aur_image_select(image, 2, (const char *[]){"A", "G"}, &selected, &error), &error);
@@ -208,7 +208,7 @@ static void test_sizes_are_checked(void **state) {
     aur_image_destroy(NULL);
 }
 
-/* A caller's own array is read and written in place, and is not freed. */
+/* A caller's array is read and written in place, and is not freed. */
 static void test_wrap(void **state) {
     (void)state;
     float values[2 * 1 * 3] = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f};
@@ -238,9 +238,9 @@ static void test_wrap(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_pictures),
-        cmocka_unit_test(test_random_pictures),
-        cmocka_unit_test(test_equal_pictures_are_equal),
+        cmocka_unit_test(test_flat_images),
+        cmocka_unit_test(test_random_images),
+        cmocka_unit_test(test_equal_images_are_equal),
         cmocka_unit_test(test_what_cannot_be_compared),
         cmocka_unit_test(test_difference),
         cmocka_unit_test(test_downsample),

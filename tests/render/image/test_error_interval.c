@@ -1,5 +1,5 @@
-/* The interval of the error of a mean of replicas against its own promise: over many sets of random images
- * with known covariance it holds the true error as often as it says. */
+/* Coverage of the interval of the error of a mean of replicas: over many sets of random images with known
+ * covariance it covers the true error at the stated rate. */
 #include "check.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ static aur_pixel_spread pool(aur_pixel_spread a, aur_pixel_spread b) {
 /* Value i from normal number `index` of a trial. */
 typedef double (*value_function)(size_t i, uint64_t candidate, uint64_t index);
 
-/* The truth is 0. `pooled`: a round before saw other replicas with the same variances. */
+/* The true value is 0. `pooled`: a previous round had other replicas with the same variances. */
 static coverage cover(size_t count, value_function draw, bool pooled) {
     coverage c = {0};
     for (size_t candidate = 0; candidate < TRIALS; ++candidate) {
@@ -103,23 +103,23 @@ static double uneven(size_t i, uint64_t candidate, uint64_t index) {
 
 enum { RARE = 32 };
 
-/* One in RARE is large, and the others are as much too low; the variance is 1. */
+/* One in RARE is large, and the others are lower to compensate; the variance is 1. */
 static double rare(size_t i, uint64_t candidate, uint64_t index) {
     (void)i;
     const double large = aur_hash2(candidate, index) < UINT64_MAX / RARE ? (double)RARE : 0.0;
     return (large - 1.0) / sqrt(RARE - 1.0);
 }
 
-/* What holds in `share` of all trials holds in a binomial count of these: five of its standard deviations are
- * a false alarm in two million. */
+/* An event with probability `share` per trial has a binomial count: five standard deviations give a false
+ * alarm in two million. */
 static void check_share(size_t inside, double share) {
     const double expected = share * TRIALS, deviation = sqrt(expected * (1.0 - share));
     assert_in_range(inside, expected - 5.0 * deviation, expected + 5.0 * deviation);
 }
 
-/* The shares are those of this test with 20,000 trials, known to .0017: nearly the .95 that is asked. Of
- * three or four replicas of uneven values there are few degrees, and the interval holds a little less; three
- * do not tell that values are rare, and it is far too wide. */
+/* The shares are those of this test with 20,000 trials, known to .0017: nearly the target .95. For three or
+ * four replicas of uneven values there are few degrees of freedom, and the coverage is slightly lower; three
+ * do not show that values are rare, and the interval is far too wide. */
 static void test_holds_what_it_says(void **state) {
     (void)state;
     static const struct {
@@ -145,8 +145,8 @@ static double single(size_t i, uint64_t candidate, uint64_t index) {
     return (i == 100 ? sqrt(9.0 * (VALUES - 1)) : 1.0) * normal(candidate, index);
 }
 
-/* Where one value has the error the replicas of now tell too little of its spread, and a round before helps.
- * The shares are those of 20,000 trials. */
+/* If one value has all the error, the current replicas give too little information on its spread, and a
+ * previous round helps. The shares are those of 20,000 trials. */
 static void test_of_one_value(void **state) {
     (void)state;
     const coverage now = cover(4, single, false), all = cover(4, single, true);
@@ -158,8 +158,8 @@ static void test_of_one_value(void **state) {
     check_share(even.inside, 0.957);
 }
 
-/* Four replicas or more tell tr C^2, the number of these values, without bias, whatever their distribution:
- * five standard deviations of the mean are a false alarm in two million. */
+/* From four replicas on, the estimate of tr C^2, the number of these values, is unbiased for any
+ * distribution: five standard deviations of the mean give a false alarm in two million. */
 static void test_spread_has_no_bias(void **state) {
     (void)state;
     static const size_t counts[] = {4, 5, 8};

@@ -16,8 +16,8 @@ static double error_by(aur_error_measure measure, const aur_image *reference, co
 static void test_constant(void **state) {
     (void)state;
     const double v = 4.0, e = 0.5;
-    aur_image *const reference = flat_picture(7, 5, 4.0f, 4.0f, 4.0f);
-    aur_image *const image = flat_picture(7, 5, 4.5f, 4.5f, 4.5f);
+    aur_image *const reference = flat_image(7, 5, 4.0f, 4.0f, 4.0f);
+    aur_image *const image = flat_image(7, 5, 4.5f, 4.5f, 4.5f);
     assert_relative(error_by(AUR_ERROR_MEASURE_RELATIVE, reference, image), e / (1.01 * v), 1e-12);
     assert_relative(error_by(AUR_ERROR_MEASURE_MEAN, reference, image), e / v, 1e-12);
     assert_relative(error_by(AUR_ERROR_MEASURE_DISPLAY, reference, image),
@@ -32,8 +32,8 @@ static void test_negative(void **state) {
     (void)state;
     enum { WIDTH = 40, HEIGHT = 5, HALF = WIDTH / 2 };
     const double bright = 4.0, dark = -1.0, e = 0.5, mean = 0.5 * (bright + dark);
-    aur_image *const reference = flat_picture(WIDTH, HEIGHT, 4.0f, 4.0f, 4.0f);
-    aur_image *const image = flat_picture(WIDTH, HEIGHT, 4.5f, 4.5f, 4.5f);
+    aur_image *const reference = flat_image(WIDTH, HEIGHT, 4.0f, 4.0f, 4.0f);
+    aur_image *const image = flat_image(WIDTH, HEIGHT, 4.5f, 4.5f, 4.5f);
     for (size_t i = 0; i < 3 * WIDTH * HEIGHT; ++i)
         if (i / 3 % WIDTH >= HALF) {
             reference->data[i] = -1.0f;
@@ -58,8 +58,8 @@ static void test_negative(void **state) {
 static void test_relative(void **state) {
     (void)state;
     enum { WIDTH = 9, HEIGHT = 8 };
-    aur_image *const reference = random_picture(WIDTH, HEIGHT, 3), *const image =
-                                                                       random_picture(WIDTH, HEIGHT, 3);
+    aur_image *const reference = random_image(WIDTH, HEIGHT, 3), *const image =
+                                                                     random_image(WIDTH, HEIGHT, 3);
     double y[2][HEIGHT][WIDTH], mean = 0.0, sum = 0.0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
         image->data[3 * i + i % 3] += 0.25f;
@@ -91,7 +91,7 @@ static void test_relative(void **state) {
 /* The mean agrees with the metric of the same meaning; equal images have no error, also black ones. */
 static void test_edges(void **state) {
     (void)state;
-    aur_image *const reference = random_picture(6, 4, 3), *const black = flat_picture(6, 4, 0, 0, 0);
+    aur_image *const reference = random_image(6, 4, 3), *const black = flat_image(6, 4, 0, 0, 0);
     double value[4];
     assert_int_equal(aur_image_compare(reference, black, AUR_IMAGE_RELATIVE_RMSE, value, NULL), AUR_OK);
     assert_relative(error_by(AUR_ERROR_MEASURE_MEAN, reference, black), value[3], 1e-6);
@@ -120,7 +120,7 @@ static void test_edges(void **state) {
 /* Clipped values are displayed as they were: an error above white is none. */
 static void test_clipped(void **state) {
     (void)state;
-    aur_image *const reference = flat_picture(10, 10, 1, 1, 1), *const image = flat_picture(10, 10, 1, 1, 1);
+    aur_image *const reference = flat_image(10, 10, 1, 1, 1), *const image = flat_image(10, 10, 1, 1, 1);
     for (size_t c = 0; c < 3; ++c) {
         reference->data[c] = 1000.0f;
         image->data[c] = 500.0f;

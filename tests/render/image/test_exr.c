@@ -1,4 +1,4 @@
-/* EXR: what is written is read back; what OpenEXR writes in all its ways is read. */
+/* EXR: written files are read back; files of OpenEXR in all variants are read. */
 #include "foreign.h"
 #include "picture.h"
 
@@ -8,16 +8,16 @@ static void test_float_round_trip_is_exact(void **state) {
      * compression, which OpenEXR alone gets wrong up to 3.4. */
     static const size_t sizes[][3] = {{1, 1, 1}, {3, 15, 3}, {17, 16, 4}, {64, 33, 7}, {5, 100, 2}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
-        aur_image *const image = random_picture(sizes[i][0], sizes[i][1], sizes[i][2]);
+        aur_image *const image = random_image(sizes[i][0], sizes[i][1], sizes[i][2]);
         /* Already in the order in which a file is read: colour first, then layers by name. */
         static const char *const names[] = {"R", "G", "B", "A", "depth", "albedo.R", "albedo.G"};
         for (size_t c = 0; c < image->channel_count && sizes[i][2] > 2; ++c)
             strcpy(image->channel_names[c], names[c]);
         image->data[0] = -1e-40f; /* a denormal */
         const char *const path = scratch(0, "float.exr");
-        write_picture(path, image, NULL);
-        aur_image *const back = read_picture(path);
-        assert_same_picture(image, back);
+        write_image(path, image, NULL);
+        aur_image *const back = read_image(path);
+        assert_same_image(image, back);
         aur_image_destroy(back);
         aur_image_destroy(image);
         remove(path);
@@ -26,15 +26,15 @@ static void test_float_round_trip_is_exact(void **state) {
 
 static void test_infinity_and_nan_survive(void **state) {
     (void)state;
-    aur_image *const image = random_picture(3, 1, 1);
+    aur_image *const image = random_image(3, 1, 1);
     image->data[0] = INFINITY;
     image->data[1] = -INFINITY;
     image->data[2] = NAN;
     for (int half = 0; half < 2; ++half) {
         const char *const path = scratch(0, "special.exr");
-        write_picture(path, image,
-                      &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = half});
-        aur_image *const back = read_picture(path);
+        write_image(path, image,
+                    &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = half});
+        aur_image *const back = read_image(path);
         assert_true(back->data[0] == INFINITY);
         assert_true(back->data[1] == -INFINITY);
         assert_true(isnan(back->data[2]));
@@ -47,14 +47,14 @@ static void test_infinity_and_nan_survive(void **state) {
 /* A half has 11 significant bits: rounding to nearest is within 2^-12 of the value for normal numbers. */
 static void test_half_is_within_its_precision(void **state) {
     (void)state;
-    aur_image *const image = random_picture(101, 37, 3);
+    aur_image *const image = random_image(101, 37, 3);
     image->data[0] = 1e6f;   /* beyond the largest half */
     image->data[1] = -1e38f; /* and below the least */
     image->data[2] = 0.0f;
     const char *const path = scratch(0, "half.exr");
-    write_picture(path, image,
-                  &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = true});
-    aur_image *const back = read_picture(path);
+    write_image(path, image,
+                &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = true});
+    aur_image *const back = read_image(path);
     assert_true(back->data[0] == 65504.0f);
     assert_true(back->data[1] == -65504.0f);
     assert_true(back->data[2] == 0.0f);
@@ -69,12 +69,12 @@ static void test_half_is_within_its_precision(void **state) {
 
 static void test_same_image_same_bytes(void **state) {
     (void)state;
-    aur_image *const image = random_picture(70, 40, 3);
+    aur_image *const image = random_image(70, 40, 3);
     for (int half = 0; half < 2; ++half) {
         const aur_image_write_options options = {.size = sizeof options, .half = half};
         size_t size_a, size_b;
-        write_picture(scratch(0, "a.exr"), image, &options);
-        write_picture(scratch(1, "another-name.exr"), image, &options);
+        write_image(scratch(0, "a.exr"), image, &options);
+        write_image(scratch(1, "another-name.exr"), image, &options);
         unsigned char *const a = read_bytes(scratch(0, "a.exr"), &size_a);
         unsigned char *const b = read_bytes(scratch(1, "another-name.exr"), &size_b);
         assert_int_equal(size_a, size_b);
@@ -90,7 +90,7 @@ static void test_same_image_same_bytes(void **state) {
 static void test_names_are_checked(void **state) {
     (void)state;
     aur_error error;
-    aur_image *const image = random_picture(2, 2, 5);
+    aur_image *const image = random_image(2, 2, 5);
     assert_int_equal(aur_image_write(scratch(0, "x.exr"), image, NULL, &error), AUR_ERROR_ARGUMENT);
     for (size_t c = 0; c < 5; ++c)
         strcpy(image->channel_names[c], "same");
@@ -137,7 +137,7 @@ static void test_every_storage_and_compression(void **state) {
                                        .tile = 16};
             const char *const path = scratch(0, "foreign.exr");
             write_foreign(path, &file);
-            aur_image *const image = read_picture(path);
+            aur_image *const image = read_image(path);
             assert_int_equal(image->width, 61);
             assert_int_equal(image->height, 47);
             assert_true(foreign_error(image) <= (i < lossless ? 0.0 : 0.05));
@@ -153,9 +153,9 @@ static void test_what_cannot_be_read_says_so(void **state) {
     aur_error error;
 
     /* A compression that OpenEXR 3.1's C library lacks: DWAA, named in the header of another file. */
-    aur_image *const picture = random_picture(8, 8, 3);
+    aur_image *const picture = random_image(8, 8, 3);
     memset(picture->data, 0, 8 * 8 * 3 * sizeof(float)); /* so that chunks are compressed */
-    write_picture(scratch(0, "dwaa.exr"), picture, NULL);
+    write_image(scratch(0, "dwaa.exr"), picture, NULL);
     aur_image_destroy(picture);
     size_t size;
     unsigned char *const bytes = read_bytes(scratch(0, "dwaa.exr"), &size);
@@ -172,11 +172,11 @@ static void test_what_cannot_be_read_says_so(void **state) {
     free(bytes);
 }
 
-/* The header says 10,000,000 x 8, which is one chunk still, and the data are those of 8 x 8. */
+/* The header states 10,000,000 x 8, which is still one chunk, and the data are those of 8 x 8. */
 static void test_header_that_lies(void **state) {
     (void)state;
-    aur_image *const picture = random_picture(8, 8, 3);
-    write_picture(scratch(0, "lie.exr"), picture, NULL);
+    aur_image *const picture = random_image(8, 8, 3);
+    write_image(scratch(0, "lie.exr"), picture, NULL);
     aur_image_destroy(picture);
     size_t size;
     unsigned char *const bytes = read_bytes(scratch(0, "lie.exr"), &size);
@@ -192,7 +192,7 @@ static void test_header_that_lies(void **state) {
     assert_int_equal(aur_image_read_memory("lie.exr", size, bytes, &image, &error), AUR_ERROR_FORMAT);
     assert_non_null(strstr(error.message, "80000000 pixels"));
     assert_null(image);
-    /* the bytes of such a row are no int32_t, which is what OpenEXR counts strides by */
+    /* the row's bytes overflow int32_t, in which OpenEXR computes strides */
     const int32_t wide[4] = {0, 0, 178956970, 0};
     memcpy(bytes + at + sizeof attribute, wide, sizeof wide);
     assert_int_equal(aur_image_read_memory("lie.exr", size, bytes, &image, &error), AUR_ERROR_UNSUPPORTED);
@@ -200,18 +200,18 @@ static void test_header_that_lies(void **state) {
     free(bytes);
 }
 
-/* OpenEXR takes names of up to 31 bytes unless it is asked for more, and once waited without end in its own
- * handler of errors. */
+/* OpenEXR accepts names of up to 31 bytes unless longer ones are enabled, and once hung in its error handler.
+ */
 static void test_long_names(void **state) {
     (void)state;
-    aur_image *const image = random_picture(3, 2, 5);
+    aur_image *const image = random_image(3, 2, 5);
     for (size_t c = 0; c < 5; ++c) {
         memset(image->channel_names[c], 'n', 51 * (c + 1) - 1);
         image->channel_names[c][51 * (c + 1) - 1] = '\0';
     }
-    write_picture(scratch(0, "names.exr"), image, NULL);
-    aur_image *const back = read_picture(scratch(0, "names.exr"));
-    assert_same_picture(image, back);
+    write_image(scratch(0, "names.exr"), image, NULL);
+    aur_image *const back = read_image(scratch(0, "names.exr"));
+    assert_same_image(image, back);
     remove(scratch(0, "names.exr"));
     aur_image_destroy(back);
     aur_image_destroy(image);
@@ -219,9 +219,9 @@ static void test_long_names(void **state) {
 
 static void test_every_truncation_is_an_error(void **state) {
     (void)state;
-    aur_image *const image = random_picture(20, 40, 3);
+    aur_image *const image = random_image(20, 40, 3);
     const char *const path = scratch(0, "cut.exr");
-    write_picture(path, image, NULL);
+    write_image(path, image, NULL);
     size_t size;
     unsigned char *const bytes = read_bytes(path, &size);
     remove(path);
@@ -239,7 +239,7 @@ static void test_every_truncation_is_an_error(void **state) {
     aur_image_destroy(image);
 }
 
-static void test_shared_pictures(void **state) {
+static void test_shared_images(void **state) {
     (void)state;
     static const struct {
         const char *path;
@@ -251,7 +251,7 @@ static void test_shared_pictures(void **state) {
             print_message("skipped: %s is not there\n", pictures[i].path);
             continue;
         }
-        aur_image *const image = read_picture(pictures[i].path);
+        aur_image *const image = read_image(pictures[i].path);
         assert_int_equal(image->width, pictures[i].width);
         assert_int_equal(image->height, pictures[i].height);
         assert_int_equal(image->channel_count, 3);
@@ -280,7 +280,7 @@ int main(void) {
         cmocka_unit_test(test_header_that_lies),
         cmocka_unit_test(test_every_truncation_is_an_error),
         cmocka_unit_test(test_long_names),
-        cmocka_unit_test(test_shared_pictures),
+        cmocka_unit_test(test_shared_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

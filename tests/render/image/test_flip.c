@@ -3,8 +3,8 @@
 #include "render/image/format.h"
 
 /* An image from display values in [0,1]: pattern number `pattern` at column x of row y, channel c. */
-static aur_image *pattern_picture(size_t width, size_t height, double (*value)(size_t, size_t, size_t)) {
-    aur_image *const image = random_picture(width, height, 3);
+static aur_image *pattern_image(size_t width, size_t height, double (*value)(size_t, size_t, size_t)) {
+    aur_image *const image = random_image(width, height, 3);
     for (size_t i = 0; i < width * height * 3; ++i)
         image->data[i] = (float)aur_srgb_decode(value(i / 3 % width, i / 3 / width, i % 3));
     return image;
@@ -70,8 +70,8 @@ static void test_published_program(void **state) {
                                       {50, 40, black, point, 0.00715464},
                                       {50, 40, black, edge, 0.540611}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        aur_image *const reference = pattern_picture(cases[i].width, cases[i].height, cases[i].reference);
-        aur_image *const image = pattern_picture(cases[i].width, cases[i].height, cases[i].image);
+        aur_image *const reference = pattern_image(cases[i].width, cases[i].height, cases[i].reference);
+        aur_image *const image = pattern_image(cases[i].width, cases[i].height, cases[i].image);
         const double value = flip_of(reference, image);
         assert_relative(value, cases[i].expected, 2e-4);
         assert_near(flip_of(image, reference), value, 1e-7); /* it is symmetric */
@@ -85,10 +85,10 @@ static void test_published_program(void **state) {
  * Green against blue is the largest, 1 by definition. Black against white has lightnesses 0 and 100 and no
  * chroma: e = 100^0.7 = 25.1189, the largest is 308.137^0.7 = 55.2 (see below), and the map to [0,1] gives
  * the rest. */
-static void test_uniform_pictures(void **state) {
+static void test_uniform_images(void **state) {
     (void)state;
-    aur_image *const pictures[] = {pattern_picture(9, 7, black), pattern_picture(9, 7, white),
-                                   pattern_picture(9, 7, green), pattern_picture(9, 7, blue)};
+    aur_image *const pictures[] = {pattern_image(9, 7, black), pattern_image(9, 7, white),
+                                   pattern_image(9, 7, green), pattern_image(9, 7, blue)};
     assert_near(flip_of(pictures[2], pictures[3]), 1.0, 1e-6);
     /* CIELAB (D65, 2 degrees) of sRGB green and blue: (87.735, -86.183, 83.180), (32.302, 79.196, -107.855);
      * with the Hunt effect a and b are multiplied by L / 100. */
@@ -106,9 +106,9 @@ static void test_uniform_pictures(void **state) {
 /* Radiance beyond the screen looks like the screen's white; a single pixel has filters larger than itself. */
 static void test_limits(void **state) {
     (void)state;
-    aur_image *const one = pattern_picture(1, 1, white);
-    aur_image *const bright = pattern_picture(1, 1, white);
-    aur_image *const dark = pattern_picture(1, 1, black);
+    aur_image *const one = pattern_image(1, 1, white);
+    aur_image *const bright = pattern_image(1, 1, white);
+    aur_image *const dark = pattern_image(1, 1, black);
     bright->data[0] = bright->data[1] = bright->data[2] = 1e30f;
     assert_near(flip_of(one, bright), 0.0, 0.0);
     dark->data[0] = -1e30f;
@@ -126,8 +126,8 @@ static void test_limits(void **state) {
 /* The map is large where the images differ and nothing away from there: filters reach 10 pixels. */
 static void test_map(void **state) {
     (void)state;
-    aur_image *const reference = pattern_picture(50, 40, black);
-    aur_image *const image = pattern_picture(50, 40, point);
+    aur_image *const reference = pattern_image(50, 40, black);
+    aur_image *const image = pattern_image(50, 40, point);
     aur_image *map, *colored;
     aur_error error;
     assert_success(aur_image_flip(reference, image, &map, &error), &error);
@@ -153,7 +153,7 @@ static void test_map(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_published_program),
-        cmocka_unit_test(test_uniform_pictures),
+        cmocka_unit_test(test_uniform_images),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_map),
     };

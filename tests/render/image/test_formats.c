@@ -1,4 +1,4 @@
-/* PFM, HDR, PNG and JPEG: known bytes, round trips, and files that lie. */
+/* PFM, HDR, PNG and JPEG: known bytes, round trips, and inconsistent files. */
 #include <png.h>
 #include <stb_image.h>
 #include <stb_image_write.h>
@@ -22,7 +22,7 @@ static void assert_read_fails(const char *what, size_t size, const void *data, a
 
 static void test_pfm_bytes(void **state) {
     (void)state;
-    /* 1.0f = 3f800000, 2.0f = 40000000; the lower row stands first. */
+    /* 1.0f = 3f800000, 2.0f = 40000000; the bottom row is first. */
     static const char big[] = "Pf\n1 2\n1.0\n\x3f\x80\x00\x00\x40\x00\x00\x00";
     static const char little[] = "Pf 1\t2\r\n-1\n\x00\x00\x80\x3f\x00\x00\x00\x40";
     static const struct {
@@ -44,11 +44,11 @@ static void test_pfm_bytes(void **state) {
 static void test_pfm_round_trip_is_exact(void **state) {
     (void)state;
     for (size_t channel_count = 1; channel_count <= 3; channel_count += 2) {
-        aur_image *const image = random_picture(7, 5, channel_count);
+        aur_image *const image = random_image(7, 5, channel_count);
         image->data[0] = INFINITY;
-        write_picture(scratch(0, "x.pfm"), image, NULL);
-        aur_image *const back = read_picture(scratch(0, "x.pfm"));
-        assert_same_picture(image, back);
+        write_image(scratch(0, "x.pfm"), image, NULL);
+        aur_image *const back = read_image(scratch(0, "x.pfm"));
+        assert_same_image(image, back);
         aur_image_destroy(back);
         aur_image_destroy(image);
     }
@@ -78,15 +78,15 @@ static void test_pfm_that_lies(void **state) {
         assert_read_fails(files[i], strlen(files[i]), files[i], AUR_ERROR_FORMAT);
 }
 
-/* RGBE keeps 8 bits of the largest channel: half a step is 1/512 of a power of two, at most 1/256 of the
- * channel. Zero, negative, NaN and infinite radiance become what the format has. */
+/* RGBE has 8 bits for the largest channel: half a step is 1/512 of a power of two, at most 1/256 of the
+ * channel. Zero, negative, NaN and infinite radiance are converted to representable values. */
 static void test_hdr_round_trip(void **state) {
     (void)state;
-    aur_image *const image = random_picture(40, 30, 3);
+    aur_image *const image = random_image(40, 30, 3);
     for (size_t i = 0; i < 9; ++i)
         image->data[i] = (float[]){0, -1, NAN, INFINITY, 0, 0, 255.9f, 255.9f, 0.1f}[i];
-    write_picture(scratch(0, "x.hdr"), image, NULL);
-    aur_image *const back = read_picture(scratch(0, "x.hdr"));
+    write_image(scratch(0, "x.hdr"), image, NULL);
+    aur_image *const back = read_image(scratch(0, "x.hdr"));
     assert_int_equal(back->width, 40);
     assert_int_equal(back->height, 30);
     assert_int_equal(back->channel_count, 3);
@@ -119,11 +119,11 @@ static void test_png_round_trip(void **state) {
         values[i] = (unsigned char)(i < 256 ? i : (i * 7919) % 256);
     for (int count = 1; count <= 3; count += 2) {
         assert_true(stbi_write_png(scratch(0, "in.png"), 16, 16, count, values, 16 * count));
-        aur_image *const image = read_picture(scratch(0, "in.png"));
+        aur_image *const image = read_image(scratch(0, "in.png"));
         assert_int_equal(image->channel_count, count);
-        write_picture(scratch(1, "out.png"), image, NULL);
-        aur_image *const back = read_picture(scratch(1, "out.png"));
-        assert_same_picture(image, back);
+        write_image(scratch(1, "out.png"), image, NULL);
+        aur_image *const back = read_image(scratch(1, "out.png"));
+        assert_same_image(image, back);
         /* stb, which reads nothing here, finds the same bytes. */
         int size[3];
         unsigned char *const out = stbi_load(scratch(1, "out.png"), &size[0], &size[1], &size[2], 0);
@@ -151,11 +151,11 @@ static void jpegs_are_written_as_displayed(void **state) {
                 image->data[i * count + c] =
                     (float)(0.5 * aur_srgb_decode(0.3 + (double)(i % WIDE + c * (i / WIDE)) / 256.0));
         const aur_image_write_options brighter = {.size = sizeof brighter, .exposure = 1.0f};
-        write_picture(scratch(0, "out.jpg"), image, &brighter);
-        back = read_picture(scratch(0, "out.jpg"));
+        write_image(scratch(0, "out.jpg"), image, &brighter);
+        back = read_image(scratch(0, "out.jpg"));
         assert_true(back->width == WIDE && back->height == HIGH && back->channel_count == 3);
         double largest = 0.0;
-        for (size_t i = 0; i < 3 * WIDE * HIGH; ++i) /* grey ones have three channels alike */
+        for (size_t i = 0; i < 3 * WIDE * HIGH; ++i) /* grey ones have three equal channels */
             largest = fmax(largest, fabs(aur_srgb_encode((double)back->data[i]) -
                                          aur_srgb_encode(2.0 * (double)image->data[count == 3 ? i : i / 3])));
         assert_true(largest < 10.0 / 255.0);
@@ -165,8 +165,8 @@ static void jpegs_are_written_as_displayed(void **state) {
     remove(scratch(0, "out.jpg"));
 }
 
-/* 16 bits, a palette with a transparent colour, and rows in seven passes, each written by libpng's own
- * writer; a byte that differs is told by its checksum. */
+/* 16 bits, a palette with a transparent colour, and rows in seven passes, each written by libpng; the
+ * checksum detects a changed byte. */
 static void write_foreign_png(const char *path, int bits, int color, int interlace, const unsigned char *rows,
                               size_t row) {
     FILE *const file = fopen(path, "wb");
@@ -198,7 +198,7 @@ static void test_png_of_others(void **state) {
         rows[i] = (unsigned char)(i * 37 + 11);
     for (int interlace = PNG_INTERLACE_NONE; interlace <= PNG_INTERLACE_ADAM7; ++interlace) {
         write_foreign_png(scratch(0, "x.png"), 16, PNG_COLOR_TYPE_GRAY_ALPHA, interlace, rows, 16);
-        aur_image *const image = read_picture(scratch(0, "x.png"));
+        aur_image *const image = read_image(scratch(0, "x.png"));
         assert_int_equal(image->channel_count, 2);
         for (size_t i = 0; i < 24; ++i) {
             const double value = (rows[2 * i] * 256 + rows[2 * i + 1]) / 65535.0;
@@ -209,7 +209,7 @@ static void test_png_of_others(void **state) {
         for (size_t i = 0; i < 12; ++i)
             rows[i] = i % 5 == 0;
         write_foreign_png(scratch(0, "x.png"), 1, PNG_COLOR_TYPE_PALETTE, interlace, rows, 4);
-        aur_image *const painted = read_picture(scratch(0, "x.png"));
+        aur_image *const painted = read_image(scratch(0, "x.png"));
         assert_int_equal(painted->channel_count, 4);
         for (size_t i = 0; i < 12; ++i) {
             const bool second = i % 5 == 0;
@@ -234,7 +234,7 @@ static void test_png_of_others(void **state) {
     remove(scratch(0, "x.png"));
 }
 
-/* A white pixel whose file tells its colour space; the values are sRGB's all the same. */
+/* A white pixel in a file with a colour space; the values are interpreted as sRGB regardless. */
 static void write_white_png(const char *path, double gamma, const double *primaries, bool srgb) {
     FILE *const file = fopen(path, "wb");
     assert_non_null(file);
@@ -277,7 +277,7 @@ static void test_png_of_other_colours(void **state) {
                  {1.0, p3, false, "its gamma of 1 is not applied"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         write_white_png(scratch(0, "x.png"), cases[i].gamma, cases[i].primaries, cases[i].srgb);
-        aur_image *const image = read_picture(scratch(0, "x.png"));
+        aur_image *const image = read_image(scratch(0, "x.png"));
         const char *const notes = aur_image_notes(image);
         assert_true(cases[i].note[0] == '\0' ? notes[0] == '\0' : strstr(notes, cases[i].note) != NULL);
         aur_image_destroy(image);
@@ -291,14 +291,14 @@ static void test_png_is_small(void **state) {
     (void)state;
     enum { SIDE = 128, COUNT = SIDE * SIDE * 3 };
     unsigned char *const values = malloc(COUNT);
-    aur_image *const image = random_picture(SIDE, SIDE, 3);
+    aur_image *const image = random_image(SIDE, SIDE, 3);
     for (size_t i = 0; i < COUNT; ++i) {
         const size_t x = i / 3 % SIDE, y = i / 3 / SIDE;
         values[i] = (unsigned char)((x * x + y * y) / 160 + (size_t)image->data[i]);
         image->data[i] = (float)aur_srgb_decode(values[i] / 255.0);
     }
     assert_true(stbi_write_png(scratch(0, "stb.png"), SIDE, SIDE, 3, values, 3 * SIDE));
-    write_picture(scratch(1, "own.png"), image, NULL);
+    write_image(scratch(1, "own.png"), image, NULL);
     size_t size_stb, size_own;
     free(read_bytes(scratch(0, "stb.png"), &size_stb));
     free(read_bytes(scratch(1, "own.png"), &size_own));
@@ -316,7 +316,7 @@ static void test_png_is_decoded_from_srgb(void **state) {
     (void)state;
     static const unsigned char values[] = {0, 10, 128, 128, 255, 0, 0, 64};
     assert_true(stbi_write_png(scratch(0, "x.png"), 2, 1, 4, values, 8));
-    aur_image *const image = read_picture(scratch(0, "x.png"));
+    aur_image *const image = read_image(scratch(0, "x.png"));
     assert_string_equal(image->channel_names[3], "A");
     static const double expected[] = {0, 10.0 / 255.0 / 12.92, 0.21586050011389926, 128.0 / 255.0, 1, 0,
                                       0, 64.0 / 255.0};
@@ -329,12 +329,12 @@ static void test_png_is_decoded_from_srgb(void **state) {
 /* Radiance beyond the screen, NaN and exposure. */
 static void test_png_of_any_radiance(void **state) {
     (void)state;
-    aur_image *const image = random_picture(6, 1, 1);
+    aur_image *const image = random_image(6, 1, 1);
     for (size_t i = 0; i < 6; ++i)
         image->data[i] = (float[]){NAN, INFINITY, -INFINITY, -3.0f, 1e30f, 0.5f}[i];
-    write_picture(scratch(0, "x.png"), image,
-                  &(aur_image_write_options){.size = sizeof(aur_image_write_options), .exposure = 1.0f});
-    aur_image *const back = read_picture(scratch(0, "x.png"));
+    write_image(scratch(0, "x.png"), image,
+                &(aur_image_write_options){.size = sizeof(aur_image_write_options), .exposure = 1.0f});
+    aur_image *const back = read_image(scratch(0, "x.png"));
     for (size_t i = 0; i < 6; ++i)
         assert_true(back->data[i] == ((float[]){0, 1, 0, 0, 1, 1})[i]);
     aur_image_destroy(back);
@@ -354,13 +354,13 @@ static void test_jpeg_is_read(void **state) {
     assert_non_null(file);
     assert_true(stbi_write_jpg_to_func(put, file, 32, 32, 1, grey, 95));
     fclose(file);
-    aur_image *const image = read_picture(scratch(0, "x.jpg"));
+    aur_image *const image = read_image(scratch(0, "x.jpg"));
     assert_int_equal(image->width, 32);
     for (size_t i = 0; i < 32 * 32 * image->channel_count; ++i) /* one step of 8 bits */
         assert_near((double)image->data[i], 0.2158605, 0.008);
     aur_image_destroy(image);
     aur_error error;
-    aur_image *const black = random_picture(1, 1, 3);
+    aur_image *const black = random_image(1, 1, 3);
     assert_int_equal(aur_image_write(scratch(0, "y.gif"), black, NULL, &error), AUR_ERROR_NAME);
     aur_image_destroy(black);
 }
@@ -376,10 +376,10 @@ static void check_truncations(const char *path, size_t step) {
 
 static void test_truncations(void **state) {
     (void)state;
-    aur_image *const image = random_picture(40, 33, 3);
+    aur_image *const image = random_image(40, 33, 3);
     static const char *const names[] = {"x.pfm", "x.hdr", "x.png"};
     for (size_t i = 0; i < 3; ++i) {
-        write_picture(scratch(0, names[i]), image, NULL);
+        write_image(scratch(0, names[i]), image, NULL);
         check_truncations(scratch(0, names[i]), 61);
         remove(scratch(0, names[i]));
     }
@@ -403,20 +403,20 @@ static void test_headers_that_lie(void **state) {
     assert_read_fails("empty", 0, "", AUR_ERROR_FORMAT);
 }
 
-static void test_formats_are_told_by_content(void **state) {
+static void test_formats_are_detected_by_content(void **state) {
     (void)state;
-    aur_image *const image = random_picture(4, 4, 3);
+    aur_image *const image = random_image(4, 4, 3);
     static const char *const formats[][2] = {{"exr", "EXR"}, {"pfm", "PFM"}, {"hdr", "HDR"}, {"png", "PNG"}};
     for (size_t i = 0; i < 4; ++i) {
         const char *const path = scratch(0, "no-extension");
-        write_picture(
+        write_image(
             path, image,
             &(aur_image_write_options){.size = sizeof(aur_image_write_options), .format = formats[i][0]});
         size_t size;
         unsigned char *const bytes = read_bytes(path, &size);
         assert_string_equal(aur_image_format_of(size, bytes), formats[i][1]);
         free(bytes);
-        aur_image_destroy(read_picture(path));
+        aur_image_destroy(read_image(path));
         remove(path);
     }
     assert_null(aur_image_format_of(5, "<?xml"));
@@ -426,7 +426,7 @@ static void test_formats_are_told_by_content(void **state) {
 static void test_writing_fails_whole(void **state) {
     (void)state;
     aur_error error;
-    aur_image *const image = random_picture(4, 4, 5);
+    aur_image *const image = random_image(4, 4, 5);
     static const char *const names[] = {"x.pfm", "x.hdr", "x.png"};
     for (size_t i = 0; i < 3; ++i) { /* five channels, none of them a colour */
         FILE *const file = fopen(scratch(0, names[i]), "wb");
@@ -464,7 +464,7 @@ int main(void) {
         cmocka_unit_test(test_jpeg_is_read),
         cmocka_unit_test(test_truncations),
         cmocka_unit_test(test_headers_that_lie),
-        cmocka_unit_test(test_formats_are_told_by_content),
+        cmocka_unit_test(test_formats_are_detected_by_content),
         cmocka_unit_test(test_writing_fails_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

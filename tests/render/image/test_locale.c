@@ -1,5 +1,5 @@
-/* What is read and written must not depend on the locale of the host: under a locale with decimal commas,
- * points lost their columns and scenes did not load. */
+/* Reading and writing must not depend on the host's locale: with decimal commas, points lost their columns
+ * and scenes did not load. */
 #include "check.h"
 
 #include <aureole-render/render.h>
@@ -34,7 +34,7 @@ static void reads_and_writes_numbers(void **state) {
         skip();
     char text[64];
     snprintf(text, sizeof text, "%g", 0.5);
-    assert_string_equal(text, "0,5"); /* the locale is what the test needs */
+    assert_string_equal(text, "0,5"); /* the locale has decimal commas */
     assert_int_equal(aur_format(text, sizeof text, "%g %.17g", 0.5, 0.1), 23);
     assert_string_equal(text, "0.5 0.10000000000000001");
     double value;
@@ -162,7 +162,7 @@ static int enter(void **state) {
     static char folder[] = "/tmp/aureole-test-XXXXXX";
     if (mkdtemp(folder) == NULL || chdir(folder) != 0)
         return 1;
-    /* Without the locale the tests still hold, and say nothing. */
+    /* Without the locale the tests pass silently. */
     if (!enter_comma_locale())
         print_message("no locale with decimal commas can be had: nothing is tested\n");
     return 0;

@@ -1,5 +1,5 @@
-/* Which channels are the colour, by name and never by order; luminance and chroma; what HDR headers say of
- * the values. */
+/* Selection of colour channels, by name and never by order; luminance and chroma; HDR headers' descriptions
+ * of the values. */
 #include <math.h>
 
 #include "hand_exr.h"
@@ -27,7 +27,7 @@ static aur_image *must_read(const char *name, hand_file file) {
     return image;
 }
 
-/* A file whose channels have these names, the letters of `values` saying which value each has. */
+/* A file with these channel names; the letters of `values` select each one's value. */
 static aur_image *named(const char *const *names, const char *values, int type) {
     hand_channel channels[8];
     const size_t count = strlen(values);
@@ -98,7 +98,7 @@ static void finds_colors_by_name(void **state) {
     }
 }
 
-/* What a caller chose is the colour, whatever it is called, in its order. */
+/* Channels selected by the caller are the colour, whatever their names, in the caller's order. */
 static void takes_chosen_channels(void **state) {
     (void)state;
     aur_image *const image = named((const char *const[]){"N.X", "N.Y", "N.Z"}, "rgb", 2);
@@ -128,8 +128,8 @@ static float blue_chroma(size_t x, size_t y) {
     return blue(x, y) / luminance(x, y) - 1.0f;
 }
 
-/* Where chroma is stored the colours are exact; between, they are those of a smooth function to the size of
- * its wiggles. */
+/* Colours are exact where chroma is stored; in between they are those of a smooth function to the size of its
+ * oscillations. */
 static void reads_luminance_and_chroma(void **state) {
     (void)state;
     static const size_t steps[][2] = {{1, 1}, {2, 2}, {2, 1}, {1, 2}, {4, 4}};
@@ -204,7 +204,7 @@ static aur_image *read_hdr_text(const char *header, const char *size, size_t cou
 
 #define RGBE "FORMAT=32-bit_rle_rgbe\n"
 
-/* Value 128 with exponent 129 is 1; the red of pixel (x, y) tells where it is. */
+/* Value 128 with exponent 129 is 1; the red of pixel (x, y) encodes its position. */
 static void reads_every_scan_order(void **state) {
     (void)state;
     static const char *const orders[] = {"-Y 2 +X 3", "+Y 2 +X 3", "-Y 2 -X 3", "+Y 2 -X 3",
@@ -305,7 +305,7 @@ static void reads_old_runs(void **state) {
 
 static void counts_odd_values(void **state) {
     (void)state;
-    aur_image *const image = random_picture(4, 4, 3);
+    aur_image *const image = random_image(4, 4, 3);
     image->data[0] = image->data[3] = INFINITY;
     image->data[6] = NAN;
     image->data[9] = -1.0f;

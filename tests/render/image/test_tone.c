@@ -4,7 +4,7 @@
 
 static void test_srgb(void **state) {
     (void)state;
-    /* IEC 61966-2-1: the straight part ends at 0.0031308 (0.04045 encoded); 0.5 encodes to 0.735357. */
+    /* IEC 61966-2-1: the linear part ends at 0.0031308 (0.04045 encoded); 0.5 encodes to 0.735357. */
     assert_near(aur_srgb_encode(0.001), 0.01292, 1e-15);
     assert_near(aur_srgb_encode(0.5), 0.7353569830524495, 1e-15);
     assert_near(aur_srgb_decode(0.7353569830524495), 0.5, 1e-15);

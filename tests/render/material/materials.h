@@ -1,4 +1,4 @@
-/* The materials that every test of this room runs through, made from text. */
+/* The materials for all material tests, created from text. */
 #pragma once
 
 #include "check.h"
@@ -161,7 +161,7 @@ static inline float unit(uint64_t a, uint64_t b, uint64_t c) {
     return aur_unit_float((uint32_t)(aur_hash3(a, b, c) >> 32));
 }
 
-/* View directions from straight above to grazing, and from behind where the material scatters there. */
+/* View directions from normal to grazing, and from behind if the material scatters there. */
 enum { VIEW_COUNT = 12 };
 
 /* A short test has a third of them for each material, others for the next one. */

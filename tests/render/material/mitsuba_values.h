@@ -1,5 +1,5 @@
-/* What Mitsuba 3's materials evaluate to: BSDF times cosine, RGB. Written by bench/peers/bsdf_values.py with
- * Mitsuba 3.9.1. */
+/* Values of Mitsuba 3's materials: BSDF times cosine, RGB. Written by bench/peers/bsdf_values.py with Mitsuba
+ * 3.9.1. */
 #pragma once
 
 #include "points/base/vector.h"

@@ -46,7 +46,7 @@ static aur_texel_source source_of(const form *image, const float *data) {
                               .same = image->same};
 }
 
-/* The number of texels that are others than those of the source, from one on in steps. */
+/* The number of texels that differ from those of the source, from one on in steps. */
 static size_t count_wrong(const aur_texel_source *source, const aur_bitmap *texels, size_t first,
                           size_t step) {
     size_t wrong = 0;
@@ -61,7 +61,7 @@ static size_t count_wrong(const aur_texel_source *source, const aur_bitmap *texe
     return wrong;
 }
 
-static void keeps_every_bit(void **state) {
+static void preserves_every_bit(void **state) {
     (void)state;
     static const form forms[] = {
         {300, 200, 256, false, true, 3, 1}, {300, 200, 256, true, true, 1, 1},
@@ -123,7 +123,7 @@ static size_t resident_bytes(void) {
     return 4096 * resident;
 }
 
-/* 12 MiB of texels, of which 4 may be in memory. */
+/* 12 MiB of texels; 4 may be in memory. */
 static void bounds_memory(void **state) {
     (void)state;
     const form image = {1024, 1024, 0, false, true, 3, 4};
@@ -158,7 +158,7 @@ static void bounds_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keeps_every_bit),
+        cmocka_unit_test(preserves_every_bit),
         cmocka_unit_test(bounds_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@ static bool is_plugin(const char *text, const char *name) {
     return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == ':');
 }
 
-/* Whoever adds a material adds a row of it, which all of these tests run through. */
+/* A new material needs a row here; all of these tests run over the rows. */
 static void every_material_is_tested(void **state) {
     (void)state;
     for (size_t i = 0; i < aur_bsdf_table.count; ++i) {
@@ -72,8 +72,8 @@ static double chi_square_deviate(double sum, double freedom) {
     return (cbrt(sum / freedom) - (1.0 - variance)) / sqrt(variance);
 }
 
-/* Counts of drawn directions against the density, for every material and view. A deviate beyond 5 has a
- * chance of 3e-7 each, below 1e-4 over all of them; the draws are fixed. */
+/* Counts of sampled directions against the pdf, for every material and view. A deviate beyond 5 has a
+ * probability of 3e-7 each, below 1e-4 over all of them; the samples are fixed. */
 static void draws_by_the_density(void **state) {
     (void)state;
     enum { DRAWS = 40000 };
@@ -123,7 +123,7 @@ static void draws_by_the_density(void **state) {
     }
 }
 
-/* A sample says the pdf and the weight that asking says. */
+/* A sample has the pdf and the weight that evaluation returns. */
 static void samples_agree_with_evaluation(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
@@ -163,7 +163,7 @@ static void is_reciprocal(void **state) {
             }
             if (fabsf(a.z) < 1e-3f || fabsf(b.z) < 1e-3f)
                 continue;
-            /* Radiance over the squared index is what keeps its way: 1.5 below the surface. */
+            /* Radiance over the squared index is preserved by refraction: 1.5 below the surface. */
             const bool glass = (material_rows[m].flags & GLASS) != 0;
             const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
                         below = glass && b.z < 0.0f ? 2.25f : 1.0f;
@@ -175,7 +175,7 @@ static void is_reciprocal(void **state) {
     }
 }
 
-/* No material gives back more than it gets, from any side, and weights are the estimate of what it gives. */
+/* No material reflects more than it receives, from any side, and weights estimate its albedo. */
 static void conserves_energy(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
@@ -229,8 +229,8 @@ static double diffuse_mass(const aur_bsdf_lobe *lobe) {
     return sum;
 }
 
-/* The lobes that final gathering is told of are the material; and the diffuse ones have the albedo that
- * photons are told of (to 1e-3 under coats, whose mean transmittance is a quadrature of coarse steps). */
+/* The lobes for final gathering sum to the material; and the diffuse ones have the albedo for photons (to
+ * 1e-3 under coats, whose mean transmittance is a quadrature of coarse steps). */
 static void lobes_are_the_material(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
@@ -261,8 +261,8 @@ static void lobes_are_the_material(void **state) {
     }
 }
 
-/* Final gathering makes a rule for each lobe before it knows where light falls: lobes and their numbers do
- * not depend on the point, though a texture makes them black there. */
+/* Final gathering builds a rule for each lobe without a position: lobes and their numbers do not depend on
+ * the point, though a texture makes them black there. */
 static void lobes_are_the_same_at_every_point(void **state) {
     (void)state;
     aur_parameters parameters;
@@ -296,7 +296,7 @@ static void lobes_are_the_same_at_every_point(void **state) {
     aur_texture_destroy(texture);
 }
 
-/* Through n masks of opacity a goes 1 - a^n of the light, all of it in a lobe. */
+/* n nested masks of opacity a transmit 1 - a^n of the light, all of it in a lobe. */
 static void masks_in_masks_let_all_light_through(void **state) {
     (void)state;
     const aur_vector view = {0.0f, 0.6f, 0.8f};
@@ -314,7 +314,8 @@ static void masks_in_masks_let_all_light_through(void **state) {
         aur_bsdf_destroy(made[n]);
 }
 
-/* What a mask lets through and what a smooth material in it mirrors and refracts are lobes of their own. */
+/* The light through a mask, and the reflection and refraction of a smooth material in it, are separate lobes.
+ */
 static void specular_lobes_of_a_mask_stay_apart(void **state) {
     (void)state;
     const aur_vector view = {0.0f, 0.6f, 0.8f};
@@ -406,8 +407,8 @@ static void lobe_reflectance_is_its_parameter(void **state) {
     drop_material(&made);
 }
 
-/* Materials that are defined by Mitsuba 3's formulas have its values, but for single-precision rounding: the
- * narrowest facets magnify that of a direction by the inverse of their roughness. */
+/* Materials defined by Mitsuba 3's formulas have its values, up to single-precision rounding: the narrowest
+ * lobes magnify that of a direction by the inverse of their roughness. */
 static void values_are_those_of_mitsuba(void **state) {
     (void)state;
     material made;
@@ -474,7 +475,7 @@ static void facets_stand_where_the_formula_says(void **state) {
     }
 }
 
-/* A row of facets is what they are one by one. */
+/* A row of facets equals the same facets evaluated one by one. */
 static void rows_of_facets_are_single_facets(void **state) {
     (void)state;
     const float v[3] = {0.01f, 0.4f, 0.99f};
@@ -492,8 +493,8 @@ static void rows_of_facets_are_single_facets(void **state) {
     }
 }
 
-/* A coat over a diffuse base is a plastic but for the light that the coat mirrors back to the base, the
- * series of which is the factor 1 / (1 - inner reflectance). */
+/* A coat over a diffuse base is a plastic except for the internal reflection between coat and base, whose
+ * series is the factor 1 / (1 - inner reflectance). */
 static void coat_over_diffuse_is_plastic(void **state) {
     (void)state;
     static const char *const pairs[][2] = {
@@ -511,7 +512,7 @@ static void coat_over_diffuse_is_plastic(void **state) {
         for (size_t i = 0; i < 200; ++i) {
             const aur_vector a = aur_sample_cosine(unit(k, 1, i), unit(k, 2, i));
             const aur_vector b = aur_sample_cosine(unit(k, 3, i), unit(k, 4, i));
-            /* What the coat mirrors is the same in both. */
+            /* The coat's reflection is the same in both. */
             const double mirrored = (double)value_of(plastic, AUR_BSDF_SAMPLED_LOBES, a, b).x * (double)k;
             const double under = (double)value_of(coated, AUR_BSDF_WHOLE, a, b).x - mirrored;
             const double whole = (double)value_of(plastic, AUR_BSDF_WHOLE, a, b).x - mirrored;

@@ -13,7 +13,7 @@ static const float colors[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
 
 static char path[64];
 
-static int write_picture(const char *ending) {
+static int write_image(const char *ending) {
     snprintf(path, sizeof path, "/tmp/aureole-texture-%d.%s", (int)getpid(), ending);
     aur_image *image;
     if (aur_image_create(2, 2, 3, &image, NULL) != AUR_OK)
@@ -46,11 +46,11 @@ static void expect(const char *keys, float u, float v, double r, double g, doubl
     aur_texture_destroy(texture);
 }
 
-static void reads_pictures(void **state) {
+static void reads_images(void **state) {
     (void)state;
     static const char *const endings[] = {"pfm", "exr", "png"};
     for (size_t i = 0; i < 3; ++i) {
-        assert_int_equal(write_picture(endings[i]), AUR_OK);
+        assert_int_equal(write_image(endings[i]), AUR_OK);
         expect("bitmap:filename=%s,filter_type=nearest", 0.25f, 0.25f, 1, 0, 0);
         expect("bitmap:filename=%s,filter_type=nearest", 0.75f, 0.25f, 0, 1, 0);
         expect("bitmap:filename=%s,filter_type=nearest", 0.25f, 0.75f, 0, 0, 1);
@@ -108,7 +108,7 @@ static void says_what_is_wrong(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_pictures),
+        cmocka_unit_test(reads_images),
         cmocka_unit_test(checks),
         cmocka_unit_test(says_what_is_wrong),
     };

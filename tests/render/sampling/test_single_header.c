@@ -1,4 +1,4 @@
-/* include/aureole_sampling.h without numbers of 128 bits, and its sampler beside the renderer's. */
+/* include/aureole_sampling.h without 128-bit integers, and its sampler compared with the renderer's. */
 #undef __SIZEOF_INT128__
 #include "../../../include/aureole_sampling.h"
 

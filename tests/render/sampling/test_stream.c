@@ -13,7 +13,7 @@ static aur_sampler *make(const char *set, size_t count) {
 
 static const char *const sets[] = {"random", "sobol", "larcher-pillichshammer", "halton", "hammersley"};
 
-/* Any pair asked again, in any order, is the same, and all are in [0,1). */
+/* Repeated evaluation in any order gives the same pairs, and all are in [0,1). */
 static void is_random_access(void **state) {
     (void)state;
     for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
@@ -34,7 +34,8 @@ static void is_random_access(void **state) {
 }
 
 /* Over pixels every sample is uniform, whatever its index: mean 1/2 within 5 standard errors (two-sided
- * chance 6e-7 a check, about 1e-4 for the 160 checks; the numbers are fixed, so the test cannot flicker). */
+ * probability 6e-7 per check, about 1e-4 for the 160 checks; the numbers are fixed, so the test is
+ * deterministic). */
 static void is_uniform_over_pixels(void **state) {
     (void)state;
     enum { PIXELS = 4096 };
@@ -55,8 +56,8 @@ static void is_uniform_over_pixels(void **state) {
     }
 }
 
-/* The samples of a pixel form a net in every pair of a net's stream: one a cell of every 16-cell elementary
- * grid. */
+/* The samples of a pixel form a net in every pair of dimensions of a net's stream: one per cell of every
+ * 16-cell elementary grid. */
 static void nets_stay_nets(void **state) {
     (void)state;
     for (size_t s = 1; s < 3; ++s) {
@@ -96,7 +97,7 @@ static void tables_are_permuted(void **state) {
     }
 }
 
-/* Pairs in blocks are those one by one, to the bit, for every count and instruction set. */
+/* Pairs in blocks are bit-identical to single ones, for every count and instruction set. */
 static void blocks_are_single_pairs(void **state) {
     (void)state;
     static const aur_stream_kernel_sets *const forms[] = {

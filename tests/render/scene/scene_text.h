@@ -1,4 +1,4 @@
-/* Loading scenes and meshes that stand as text in a test. */
+/* Loads scenes and meshes from texts in tests. */
 #pragma once
 
 #include "check.h"
@@ -11,7 +11,7 @@
 
 #include "render/scene/scene.h"
 
-/* A folder of its own for a test program; removed by leave_folder. */
+/* A private folder for a test program; removed by leave_folder. */
 static char scene_folder[64];
 
 static inline int enter_folder(void **state) {

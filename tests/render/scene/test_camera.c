@@ -24,7 +24,7 @@ static aur_vector direction_at(const char *sensor, size_t width, size_t height, 
 }
 
 /* The image's left edge is +x of the camera, its top +y; `fov` spans the named axis. */
-static void frames_the_picture(void **state) {
+static void frames_the_image(void **state) {
     (void)state;
     static const struct {
         const char *axis;
@@ -52,7 +52,7 @@ static void frames_the_picture(void **state) {
     const aur_vector edge =
         direction_at("<string name='focal_length' value='50mm'/>", 360, 240, 0.0f, 120.0f);
     assert_near(edge.x / edge.z, 18.0 / 50.0, 1e-6);
-    /* A principal point half a film to the side looks where the edge was. */
+    /* With a principal point shifted by half a film, the centre ray is the former edge ray. */
     const aur_vector shifted =
         direction_at("<float name='fov' value='40'/><float name='principal_point_offset_x' value='-0.5'/>",
                      10, 10, 5.0f, 5.0f);
@@ -91,8 +91,8 @@ static aur_scene *load_sensor(const char *sensor) {
     return scene;
 }
 
-/* What defines the filters: values in the middle and a pixel away, and the radius. The cubic ones are weights
- * of interpolation: over whole pixels they add up to 1 wherever they stand. */
+/* Properties that define the filters: values at the centre and a pixel away, and the radius. The cubic ones
+ * are interpolation weights: at pixel spacing they sum to 1 for any offset. */
 static void values_of_filters(void **state) {
     (void)state;
     static const struct {
@@ -190,7 +190,7 @@ static void sixteen_rays_are_the_single_ones(void **state) {
     }
 }
 
-/* Distribution functions of the filters, in their own units. */
+/* Distribution functions of the filters, in their units. */
 static double filter_mass(const char *name, double x) {
     if (strcmp(name, "box") == 0)
         return x + 0.5;
@@ -266,7 +266,7 @@ static void finds_where_a_direction_is_seen(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_the_picture),
+        cmocka_unit_test(frames_the_image),
         cmocka_unit_test(moves_and_clips),
         cmocka_unit_test(samples_filters),
         cmocka_unit_test(values_of_filters),

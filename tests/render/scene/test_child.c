@@ -26,7 +26,7 @@ static int stop_at_third(void *user, const char *what, uint64_t done, uint64_t t
     return ++*(int *)user == 3;
 }
 
-/* What one byte that never comes ends with. */
+/* The result of waiting for a byte that never arrives. */
 static aur_result wait_for(const char *text, double seconds, double patience, const aur_progress *progress,
                            aur_error *error) {
     aur_child child;

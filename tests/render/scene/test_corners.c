@@ -1,5 +1,5 @@
-/* What bounds and cameras know of copies of a group is what walking all of them gives, to the last bit, and
- * only few are walked. */
+/* Bounds and camera distances over instances of a group are bit-identical to those over all corners, though
+ * only few are visited. */
 #include "scene_text.h"
 
 #include "points/base/random.h"
@@ -12,7 +12,7 @@ static double unit(uint64_t a, uint64_t b) {
     return (double)aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
 }
 
-/* A bumpy patch, its triangles in an order that is not that of space, and a vertex far away that none has. */
+/* A bumpy patch, with its triangles in a random order, and a distant vertex that no triangle uses. */
 static void write_patch(void) {
     char *const text = malloc(MOST_TEXT);
     int used = 0;
@@ -31,8 +31,8 @@ static void write_patch(void) {
     free(text);
 }
 
-/* Copies of one group, or as many groups with one copy each, which are walked whole. `turned`: any map, else
- * they stand on a plane, turned about z. */
+/* Instances of one group, or as many groups with one instance each, which are visited completely. `turned`:
+ * any transform, else they stand on a plane, rotated about z. */
 static char *copies_of(const char *shapes, bool turned, bool one_group) {
     char *const text = malloc(MOST_TEXT);
     int used = 0;

@@ -66,8 +66,8 @@ static double outside_cones(const aur_curves *curves, const double p[3]) {
     return least;
 }
 
-/* Hits lie on the surface that the definition tells, and normals are across the ways to hits beside; nothing
- * is met from inside, or again by rays that leave. */
+/* Hits lie on the surface of the definition, and normals are orthogonal to differences of neighbouring hits;
+ * nothing is hit from inside, or again by rays that leave. */
 static void hits_curves(void **state) {
     (void)state;
     static const char *const plugins[] = {"linearcurve", "bsplinecurve"};
@@ -99,7 +99,7 @@ static void hits_curves(void **state) {
             const aur_vector normal = surface.geometric_normal;
             assert_near(aur_vector_length(normal), 1.0, 1e-5);
             assert_true(aur_vector_dot(normal, ray.direction) < 1e-3f);
-            /* Two rays beside it meet the tangent plane, within the square of their distance over a radius.
+            /* Two neighbouring rays hit the tangent plane, within the square of their distance over a radius.
              */
             for (size_t side = 0; side < 2 && aur_vector_dot(normal, ray.direction) < -0.3f; ++side) {
                 const aur_frame frame = aur_frame_about(ray.direction);
@@ -129,8 +129,8 @@ static void hits_curves(void **state) {
     }
 }
 
-/* A straight spline with even points is a tube of its radius; its area and texture are known. `to_world`
- * moves points and leaves radii. */
+/* A straight spline with equidistant points is a tube of its radius; its area and texture are known.
+ * `to_world` moves points and preserves radii. */
 static void knows_a_tube(void **state) {
     (void)state;
     aur_scene *const scene =

@@ -3,8 +3,7 @@
 #include "points/base/random.h"
 #include "render/scene/patches.h"
 
-/* The last item whose sum of those before it is not above the target, by a look at all of them; never one of
- * weight 0. */
+/* The last item whose preceding sum is not above the target, by linear search; never one of weight 0. */
 static size_t by_linear_search(const aur_distribution *distribution, double u) {
     size_t found = 0;
     for (size_t i = 0; i < distribution->count; ++i)
@@ -16,7 +15,7 @@ static size_t by_linear_search(const aur_distribution *distribution, double u) {
 
 enum { MOST = 700 };
 
-/* Alike, steep, mostly 0, and one that has nearly all. */
+/* Uniform, steep, mostly 0, and one with nearly all the weight. */
 static double weight_of(size_t kind, size_t i, size_t count) {
     const double unit = aur_unit_double(aur_hash4(kind, i, count, 7));
     switch (kind) {
@@ -45,7 +44,7 @@ static void chooses_as_a_linear_search_does(void **state) {
             aur_distribution distribution;
             assert_int_equal(aur_distribution_create(&distribution, count, weights, NULL), AUR_OK);
             for (size_t k = 0; k < 4 * count + 200 && distribution.total > 0.0; ++k) {
-                /* Steps of the guide, the two numbers beside them, and others. */
+                /* Steps of the guide table, the two neighbouring numbers, and others. */
                 const double step = (double)(k / 4) / (double)count;
                 const double tries[4] = {step, nextafter(step, 0.0), nextafter(step, 1.0),
                                          aur_unit_double(aur_hash4(k, count, kind, 1))};

@@ -102,8 +102,8 @@ static void looks_agree(const aur_scene *scene, uint64_t seed, uint32_t lanes) {
     }
 }
 
-/* Sixteen draws and look-ups have the bits of single ones, whichever lanes are asked for, where the sky
- * stands alone and beside other lights, by every instruction set. */
+/* Sixteen samples and look-ups are bit-identical to single ones, for any active lanes, with the sky alone and
+ * with other lights, for every instruction set. */
 static void lanes_have_the_bits_of_single_samples(void **state) {
     (void)state;
     static const char *const names[] = {"portable", "avx2", "avx512"};

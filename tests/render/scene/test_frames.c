@@ -1,5 +1,5 @@
-/* What a shape is like under `to_world`: the same point has the same texture coordinates, wherever the shape
- * has been moved to, and normals and tangents go with it. */
+/* Shapes under `to_world`: the same point has the same texture coordinates wherever the shape is moved, and
+ * normals and tangents are transformed. */
 #include "render/scene/scene_data.h"
 #include "scene_text.h"
 
@@ -12,7 +12,7 @@ static float unit(uint64_t a, uint64_t b) {
 
 typedef struct test_shape {
     const char *plugin, *keys;
-    enum { ANY_MAP, ROUND, ALONG_AXIS, RIGID } allowed; /* what `to_world` may do to it */
+    enum { ANY_MAP, ROUND, ALONG_AXIS, RIGID } allowed; /* transforms that are allowed in `to_world` */
 } test_shape;
 
 static const test_shape shapes[] = {
@@ -166,8 +166,8 @@ static void moves_with_to_world(void **state) {
             const aur_vector smooth = apply_to_normal(maps[m].m, at[0].frame.z, &sign);
             assert_near(aur_vector_length(aur_vector_subtract(at[1].position, position)), 0.0, 1e-5);
             assert_near(aur_vector_length(aur_vector_subtract(at[1].geometric_normal, normal)), 0.0, 2e-4);
-            /* Normals at vertices are unit where the shape stands, and interpolated there: a stretch changes
-             * that. */
+            /* Vertex normals are normalised in world space, and interpolated there: a stretch changes that.
+             */
             const bool smooth_mesh =
                 strcmp(shapes[s].plugin, "obj") == 0 || strcmp(shapes[s].plugin, "ply") == 0;
             if (!smooth_mesh || as_instance || fits(ROUND_SHAPE, m))
@@ -183,7 +183,8 @@ static void moves_with_to_world(void **state) {
     }
 }
 
-/* A step to a point beside is the tangents times the steps of the texture coordinates, to its square. */
+/* The difference of neighbouring points is the tangents times the differences of texture coordinates, to
+ * second order. */
 static void has_the_tangents_of_its_coordinates(void **state) {
     (void)state;
     write_models();

@@ -23,14 +23,14 @@ static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
 }
 
-/* What light from a direction counts at a reference. */
+/* The contribution of light from a direction at a reference. */
 static double weight_at(const aur_light_reference *at, aur_vector direction) {
     return aur_vector_is_zero(at->normal) ? 1.0 : fmax((double)aur_vector_dot(at->normal, direction), 0.0);
 }
 
-/* Light that falls on a point from all sides (fluence) or on one of two surfaces there, in two ways: by
- * uniform directions that meet lights, and by drawn points on lights. And asking says the pdf that sampling
- * says. */
+/* Light that arrives at a point from all directions (fluence) or on one of two surfaces there, in two ways:
+ * by uniform directions that hit lights, and by sampled points on lights. Evaluation returns the pdf of
+ * sampling. */
 static void compare_with_brute_force(const aur_scene *scene, aur_vector reference) {
     enum { COUNT = 200000 };
     static const aur_vector normals[] = {{0.0f, 0.0f, 0.0f}, {0.36f, 0.48f, 0.8f}, {0.6f, -0.8f, 0.0f}};
@@ -51,8 +51,8 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
             aur_ray continuation = ray;
             continuation.farthest = INFINITY;
             aur_hit hit;
-            /* Not grazing, where it matters that points lie off the light, nor beside a silhouette or beyond
-             * the scene. */
+            /* Not at grazing angles, where the offset of points from the light matters, nor next to a
+             * silhouette or outside the scene. */
             if (value > 0.0 && i % 16 == 0 && sample.pdf < 15.0f &&
                 aur_scene_intersect(scene, &continuation, &hit)) {
                 aur_surface surface;
@@ -77,7 +77,7 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
     const double mean = direct[0] / COUNT, other = brute[0] / COUNT;
     const double sigma = sqrt((direct[1] / COUNT - mean * mean + brute[1] / COUNT - other * other) / COUNT);
     assert_true(mean > 0.01);
-    assert_near(mean, other, 4.5 * sigma); /* by chance in 7 of a million; the numbers are fixed */
+    assert_near(mean, other, 4.5 * sigma); /* exceeded with probability 7e-6; the numbers are fixed */
 }
 
 static void draws_what_it_says(void **state) {
@@ -88,8 +88,8 @@ static void draws_what_it_says(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What a surface gets of a lamp, drawn for its normal and for none: means differ by chance alone, and asking
- * says the pdf that drawing says. */
+/* Irradiance by an emitter, sampled with a normal and without: means differ only by noise, and evaluation
+ * returns the pdf of sampling. */
 static void draws_for_normals(void **state) {
     (void)state;
     enum { COUNT = 20000 };
@@ -139,8 +139,9 @@ static void draws_for_normals(void **state) {
         }
         const double mean = sums[0] / COUNT, other = sums[1] / COUNT;
         const double variance = squares[0] / COUNT - mean * mean, others = squares[1] / COUNT - other * other;
-        assert_near(mean, other, 4.5 * sqrt((variance + others) / COUNT)); /* by chance in 7 of a million */
-        /* A light's own pattern may stand where the cosine is large. */
+        assert_near(mean, other, 4.5 * sqrt((variance + others) / COUNT)); /* exceeded with probability 7e-6
+                                                                            */
+        /* A light with its own sampling pattern may be placed where the cosine is large. */
         assert_true(mean > 0.0 && variance < (rows[i].lights != NULL ? 1.1 : 1.0) * others);
         aur_scene_destroy(scene);
     }
@@ -226,8 +227,8 @@ static const char *const sky = "<emitter type='envmap'><string name='filename' v
                                "<float name='scale' value='2'/><transform name='to_world'>"
                                "<rotate x='1' y='1' angle='50'/></transform></emitter>";
 
-/* Light on the side of a normal is the same light, and only what is behind may be left out. */
-static void one_side_is_asked_for(const aur_scene *scene, const float u[3], const aur_light_sample *whole) {
+/* Light on the side of a normal is the same light; only what is behind may be omitted. */
+static void one_side_is_requested(const aur_scene *scene, const float u[3], const aur_light_sample *whole) {
     const aur_vector normal = {0.6f, 0.0f, 0.8f};
     aur_light_sample sample;
     if (aur_light_sample_direct(scene, &(aur_light_reference){.normal = normal}, u, &sample)) {
@@ -252,7 +253,7 @@ static void draws_environments(void **state) {
         aur_scene *const scene = must_load_body(body);
         assert_true(aur_scene_has_environment(scene));
         compare_with_brute_force(scene, (aur_vector){0.0f, 0.5f, 0.25f});
-        /* asking says what drawing says */
+        /* evaluation returns the values of sampling */
         for (size_t k = 0; k < 3000; ++k) {
             const float u[3] = {unit(1, k), unit(2, k), unit(3, k)};
             aur_light_sample sample;
@@ -270,7 +271,7 @@ static void draws_environments(void **state) {
             const aur_vector both = aur_environment_light(scene, sample.direction, &pdf);
             assert_true(both.x == aur_scene_environment(scene, sample.direction).x);
             assert_true(pdf == aur_environment_pdf_direct(scene, sample.direction));
-            one_side_is_asked_for(scene, u, &sample);
+            one_side_is_requested(scene, u, &sample);
         }
         aur_scene_destroy(scene);
     }

@@ -54,7 +54,7 @@ static bool surely_lit(const aur_light_bounds *bounds, const aur_light_reference
     return false;
 }
 
-/* Probabilities are 1 in sum, are those of choosing, and are above 0 wherever there is light. */
+/* Probabilities sum to 1, are those of sampling, and are positive wherever there is light. */
 static void check_tree(size_t count, aur_light_bounds *bounds, const aur_light_reference *at) {
     enum { DRAWS = 1 << 14 };
     aur_light_tree tree;
@@ -107,7 +107,7 @@ static void probabilities_are_those_of_choosing(void **state) {
         }
 }
 
-/* A light of which the reference is a point, lights at one point, and far from the origin. */
+/* A light at the reference point, lights at one point, and far from the origin. */
 static void odd_places(void **state) {
     (void)state;
     enum { COUNT = 40 };
@@ -133,7 +133,7 @@ static void odd_places(void **state) {
 #define SQUARE(place, more)                                                                                  \
     "<shape type='rectangle'><transform name='to_world'>" place "</transform>" more "</shape>"
 
-/* Of a drawn point that a ray finds, the density that is said of it. */
+/* The pdf of a sampled point that a ray hits. */
 static void check_density(const aur_scene *scene, const aur_light_reference *at,
                           const aur_light_sample *sample) {
     const aur_ray ray = {at->position, 0.0f, sample->direction, INFINITY};
@@ -148,8 +148,8 @@ static void check_density(const aur_scene *scene, const aur_light_reference *at,
         assert_relative(aur_light_pdf_direct(scene, at, &surface), sample->pdf, 4e-3);
 }
 
-/* What falls on the reference from each light alone, drawn as if there were no other; and by the tree. Also
- * that a light's point is drawn with the density that is said of it. */
+/* Irradiance at the reference by each light alone, sampled without the others; and by the tree. A light's
+ * point has the pdf that is returned. */
 static void compare_with_each(const aur_scene *scene, const aur_light_reference *at) {
     enum { COUNT = 1 << 15 };
     double each = 0.0, each_variance = 0.0, sum = 0.0, squares = 0.0;
@@ -201,7 +201,7 @@ static void same_light_as_each_alone(void **state) {
     static const char *const bodies[] = {
         /* one light */
         SQUARE("<translate z='3'/>", AREA("2")),
-        /* two that are alike, at one place */
+        /* two equal ones at the same position */
         SQUARE("<rotate x='1' angle='180'/><translate z='3'/>", AREA("2"))
             SQUARE("<rotate x='1' angle='180'/><translate z='3'/>", AREA("2")),
         /* some below the horizon, some turned away, one black, one without area */
@@ -223,7 +223,7 @@ static void same_light_as_each_alone(void **state) {
         "<emitter type='directionalarea'/></shape><emitter type='directional'><vector name='direction' "
         "z='-1' x='0' y='.2'/></emitter>"
         "<emitter type='constant'><rgb name='radiance' value='.3'/></emitter>",
-        /* meshes, one with a triangle without area, beside round lights; weights */
+        /* meshes, one with a triangle without area, and round lights; weights */
         "<shape type='obj'><string name='filename' value='pair.obj'/><boolean name='face_normals' "
         "value='true'/>"
         "<transform name='to_world'><rotate y='1' angle='200'/><translate z='2'/></transform>" AREA(
@@ -262,8 +262,8 @@ static void same_light_as_each_alone(void **state) {
     }
 }
 
-/* Lights that are alike otherwise are drawn in proportion to their weights, of which 0 counts as .001; lights
- * beside the tree too. */
+/* Otherwise equal lights are chosen in proportion to their weights, with 0 counted as .001; also with lights
+ * outside the tree. */
 static void weights_count(void **state) {
     (void)state;
     enum { COUNT = 1 << 14 };
@@ -292,7 +292,7 @@ static void weights_count(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* One light is drawn by its own numbers, as if there were no choice, and its weight is of no matter. */
+/* A single light uses its numbers unchanged, without a choice, and its weight has no effect. */
 static void one_light_needs_no_tree(void **state) {
     (void)state;
     aur_scene *const scene =
@@ -319,7 +319,8 @@ static void write_sky(void) {
     write_file("sky.pfm", bytes, sizeof bytes);
 }
 
-/* Sixteen references at once get the bits of each by itself, beside an environment that is drawn together. */
+/* Sixteen references at once are bit-identical to single ones, with an environment that is sampled together.
+ */
 static void lanes_are_single_samples(void **state) {
     (void)state;
     char body[8192];

@@ -1,4 +1,4 @@
-/* What scenes become, whose files hold no mistake. */
+/* Loading of valid scenes. */
 #include "scene_text.h"
 
 #include <time.h>
@@ -27,7 +27,7 @@ static void loads_a_small_scene(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* A scene in memory; files are looked for beside its name. */
+/* A scene in memory; files are searched next to its name. */
 static void loads_from_memory(void **state) {
     (void)state;
     static const char text[] =
@@ -167,8 +167,8 @@ static void includes_files(void **state) {
     assert_non_null(strstr(error.file, "itself.xml"));
 }
 
-/* What a scene reads is looked for beside it, and is a regular file. */
-static void finds_files_beside_the_scene(void **state) {
+/* Files of a scene are searched next to it, and must be regular files. */
+static void finds_files_next_to_the_scene(void **state) {
     (void)state;
     write_text("own.csv", "x,y\n0.25,0.5\n0.75,0.5\n");
     char text[1024], expected[512];
@@ -247,7 +247,7 @@ static double seconds_to_load(const char *head, const char *format, size_t count
 }
 
 /* These took the square of their number: 48 and more than 20 seconds at these sizes. */
-static void loads_many_things_in_time(void **state) {
+static void loads_many_objects_in_time(void **state) {
     (void)state;
     assert_true(
         seconds_to_load("", "<alias as='a%zu' id='a%zu'/>\n", 20000, "<bsdf type='diffuse' id='a0'/>") < 5.0);
@@ -271,7 +271,7 @@ static void loads_bundled_scenes(void **state) {
     }
 }
 
-/* Public scenes beside the project, where they are present. */
+/* Public scenes in the project's parent folder, if present. */
 static void loads_public_scenes(void **state) {
     (void)state;
     const char *const path = AUR_SOURCE_DIR "/../shared/scenes/cornell-box/scene.xml";
@@ -339,8 +339,8 @@ int main(void) {
         cmocka_unit_test(loads_a_small_scene),     cmocka_unit_test(loads_from_memory),
         cmocka_unit_test(gives_default_materials), cmocka_unit_test(maps_samplers_to_sets),
         cmocka_unit_test(refers_to_parts),         cmocka_unit_test(substitutes_names),
-        cmocka_unit_test(includes_files),          cmocka_unit_test(finds_files_beside_the_scene),
-        cmocka_unit_test(reads_old_versions),      cmocka_unit_test(loads_many_things_in_time),
+        cmocka_unit_test(includes_files),          cmocka_unit_test(finds_files_next_to_the_scene),
+        cmocka_unit_test(reads_old_versions),      cmocka_unit_test(loads_many_objects_in_time),
         cmocka_unit_test(loads_bundled_scenes),    cmocka_unit_test(loads_public_scenes),
         cmocka_unit_test(reads_colors_of_meshes),
     };

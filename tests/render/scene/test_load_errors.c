@@ -1,4 +1,4 @@
-/* What is said of scenes that cannot be loaded, and where. */
+/* Messages and locations for scenes that cannot be loaded. */
 #include "scene_text.h"
 
 #include <fcntl.h>
@@ -32,8 +32,8 @@ static void ends_growth(void **state) {
     free(body);
 }
 
-/* What a file may get wrong: the body, where it is (line, column of scene.xml, whose second line the body
- * is), and a part of the message. */
+/* Errors in a file: the body, the location (line, column of scene.xml; the body is its second line), and a
+ * part of the message. */
 static const struct bad_row {
     const char *body;
     size_t line, column;
@@ -110,7 +110,7 @@ static const struct bad_row {
      "type='shapegroup'><ref id='c'/></shape>",
      2, 93, "takes shapes only"},
     {"<shape type='shapegroup'><bsdf type='diffuse'/></shape>", 2, 1, "needs a shape"},
-    /* maps and places with which Embree would end the process */
+    /* transforms and positions with which Embree would abort */
     {"<shape type='disk'><transform name='to_world'><scale value='1e13'/></transform></shape>", 2, 1,
      "shape 'disk': 'to_world' must move by at most 1e+12, and scale by 1e-12 to 1e+12"},
     {"<sensor type='perspective'><transform name='to_world'><lookat origin='1e20,1e20,1e20' target='0,0,1' "
@@ -207,8 +207,7 @@ static void says_what_is_wrong(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* Meshes that are made when first needed: the error quotes the command, wherever the folder was to be found.
- */
+/* Meshes that are generated on first use: the error quotes the command, wherever the folder was found. */
 static void names_the_command_of_a_missing_mesh(void **state) {
     (void)state;
     char folder[128], text[512];
@@ -235,7 +234,7 @@ static void names_the_command_of_a_missing_mesh(void **state) {
     assert_null(strstr(error.message, "made by the command"));
 }
 
-/* `count` materials of which each one refers to the next; the last one is plain. */
+/* `count` materials, each of which refers to the next; the last one is plain. */
 static char *chain(size_t count) {
     char *const text = malloc(count * 64 + 64);
     char *end = text;
@@ -292,8 +291,8 @@ static void refuses_bad_roots(void **state) {
     assert_string_equal(error.file, "/nowhere/scene.xml");
 }
 
-/* What is hashed must be what was read. */
-static void changed_files_are_told(void **state) {
+/* The hashed data must be the data that were read. */
+static void changed_files_are_reported(void **state) {
     (void)state;
     static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
     write_text("changing.obj", triangle);
@@ -322,7 +321,7 @@ int main(void) {
         cmocka_unit_test(names_the_command_of_a_missing_mesh),
         cmocka_unit_test(refuses_long_chains),
         cmocka_unit_test(refuses_bad_roots),
-        cmocka_unit_test(changed_files_are_told),
+        cmocka_unit_test(changed_files_are_reported),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -36,7 +36,7 @@ static double area_of(const aur_mesh_data *data) {
 typedef struct spelling {
     aur_mesh_format format;
     const char *text;
-    size_t size; /* 0: that of the text */
+    size_t size; /* 0: the length of the text */
 } spelling;
 
 /* The square (.1, 0), (1.1, 0), (1.1, 1), (.1, 1) and a triangle (.1, 0), (1.1, 0), (.1, -2), both at z =
@@ -225,7 +225,7 @@ static size_t binary_stl(const char *head, uint32_t count, char *bytes) {
     return size;
 }
 
-static void binary_stl_is_told_by_its_bytes(void **state) {
+static void binary_stl_is_detected_by_its_bytes(void **state) {
     (void)state;
     static const struct {
         const char *head;
@@ -254,15 +254,15 @@ static void binary_stl_is_told_by_its_bytes(void **state) {
         if (result != AUR_OK)
             fail_msg("row %zu: %s", i, error.message);
         assert_int_equal(data.triangle_count, 3);
-        assert_int_equal(data.vertex_count, 5); /* corners at one place are one vertex */
+        assert_int_equal(data.vertex_count, 5); /* coincident corners are one vertex */
         assert_near(area_of(&data), 2.0, 1e-6);
         aur_mesh_data_release(&data);
     }
 }
 
-/* --- what else files have */
+/* --- other file contents */
 
-static void obj_groups_and_materials_are_kept(void **state) {
+static void obj_groups_and_materials_are_preserved(void **state) {
     (void)state;
     static const char text[] =
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng left wall # c\nusemtl red\nf 1 2 3\nf 3 2 1\n"
@@ -404,8 +404,8 @@ int main(void) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(spellings_are_one_surface),
         cmocka_unit_test(binary_ply_is_the_same_surface),
-        cmocka_unit_test(binary_stl_is_told_by_its_bytes),
-        cmocka_unit_test(obj_groups_and_materials_are_kept),
+        cmocka_unit_test(binary_stl_is_detected_by_its_bytes),
+        cmocka_unit_test(obj_groups_and_materials_are_preserved),
         cmocka_unit_test(ply_attributes_have_mitsubas_names),
         cmocka_unit_test(flawed_faces_are_counted),
         cmocka_unit_test(bad_files_are_refused_by_line),

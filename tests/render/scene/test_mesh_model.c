@@ -63,7 +63,7 @@ static aur_result find_nothing(void *state, const char *name, char **used, char 
     return AUR_OK;
 }
 
-/* What a model becomes. */
+/* The conversion of a model. */
 typedef struct translation {
     aur_xml_tree tree;
     aur_model_files files;

@@ -1,5 +1,5 @@
-/* Rays that leave a surface or end at a light on it never meet it, wherever the surface is near to the origin
- * and however it is turned; and what is just before a light hides it. */
+/* Rays that leave a surface or end at a light on it never hit it, whatever its position and orientation; an
+ * object just in front of a light hides it. */
 #include "scene_text.h"
 
 #include "points/base/random.h"
@@ -68,7 +68,7 @@ static const struct {
     double axis[3], angle;
 } turns[] = {{{1, 0, 0}, 0}, {{1, 2, -1}, 40}, {{1, 0.3, 0}, 0.01}, {{-3, 1, 1}, 200}, {{0, 1, 0}, 45}};
 
-/* What is on the way back into a round shape is its other side. */
+/* A ray back into a round shape hits its other side. */
 static size_t leave(const aur_scene *scene, const aur_surface *surface, double size, bool flat,
                     uint64_t seed) {
     enum { DIRECTIONS = 8 };
@@ -89,7 +89,7 @@ static size_t leave(const aur_scene *scene, const aur_surface *surface, double s
     return met;
 }
 
-/* `more` stands in the shape, as a light does. Its middle is away * size * (1, .4, -.7). */
+/* `more` is added to the shape, for example a light. Its centre is away * size * (1, .4, -.7). */
 static aur_scene *load_shape(size_t shape, double size, size_t turn, double away, const char *more) {
     char transform[512], body[2048];
     const aur_vector middle = shapes[shape].middle;
@@ -113,14 +113,14 @@ static aur_scene *load_shape(size_t shape, double size, size_t turn, double away
     return must_load_body(body);
 }
 
-/* How often a ray of many met what it left. */
+/* The number of rays that hit the surface they left. */
 static size_t test_place(size_t shape, double size, size_t turn, double away, size_t *tried) {
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
     aur_scene *const scene = load_shape(shape, size, turn, away, "");
     const aur_vector place = aur_place_from(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < 60; ++i) {
-        /* Towards places around the one at the origin, some of them very near to it. */
+        /* Towards positions around the origin, some of them very near to it. */
         const float near = (float)size * powf(10.0f, -4.0f * unit(i, 1));
         const aur_vector target =
             aur_vector_add_scaled(place, 0.5f * near, aur_sample_sphere(unit(i, 2), unit(i, 3)));

@@ -1,4 +1,4 @@
-/* Scenes that stand far away are those near 0: rays meet the same surfaces, lights give the same. */
+/* Scenes far away equal those near 0: rays hit the same surfaces, lights give the same. */
 #include "scene_text.h"
 
 #include <zlib.h>
@@ -14,7 +14,7 @@ static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
 }
 
-/* Where scenes are moved to. Coordinates of files have seven binary places or fewer, so that all are exact.
+/* Translations of the scenes. Coordinates of files have at most seven binary places, so that all are exact.
  */
 static const double places[][3] = {
     {1e5, 1e5, 0.0},     {2600000.0, 1200000.0, 408.5},    {500000.25, 5400000.75, 113.125},
@@ -24,7 +24,7 @@ static const double places[][3] = {
 
 enum { PLACES = sizeof places / sizeof places[0] };
 
-/* Texts have $x, $y and $z for the numbers x, y and z more than those of the place. */
+/* Texts contain $x, $y and $z for x, y and z plus the coordinates of the position. */
 static void expand(const char *text, const double at[3], char *expanded, size_t capacity) {
     size_t used = 0;
     for (; *text != '\0' && used + 40 < capacity; ++text) {
@@ -100,7 +100,7 @@ static void write_meshes(const double at[3]) {
     "<transform name='to_world'><translate x='$x0' y='$y0' z='$z0'/><rotate z='1' angle='90'/>"              \
     "<scale x='.5' y='-.5' z='.5'/><rotate z='1' angle='-90'/>"
 
-/* Every shape; all lie within 3 of the place. */
+/* Every shape; all lie within 3 of the position. */
 static const char *const shapes[] = {
     FILE_SHAPE("obj", "mesh.obj"),
     FILE_SHAPE("ply", "mesh.ply"),
@@ -129,8 +129,8 @@ static const char *const shapes[] = {
                            "</shape></shape><shape type='instance'><ref id='g'/></shape>",
 };
 
-/* Rays from the same places meet the same at the same distances. Few pass so near to an edge that rounding
- * settles whether they meet it. */
+/* Rays from the same positions hit the same at the same distances. Few pass so close to an edge that rounding
+ * decides. */
 static void compare_rays(const aur_scene *near, const aur_scene *far, const double place[3]) {
     const aur_scene *const scenes[2] = {near, far};
     size_t hits = 0, edges = 0;
@@ -194,7 +194,7 @@ static void rays_meet_the_same(void **state) {
     }
 }
 
-/* Lights that are points, the camera and a volume, beside a square that settles the origin. */
+/* Point lights, the camera and a volume, with a square that determines the origin. */
 static void lights_and_cameras_move(void **state) {
     (void)state;
     static const char *const text =
@@ -290,7 +290,7 @@ static void specks_do_not_matter(void **state) {
     }
 }
 
-/* What is near 0 for its size keeps its coordinates. */
+/* Shapes near 0 relative to their size keep their coordinates. */
 static void near_scenes_stay(void **state) {
     (void)state;
     static const char *const rows[] = {"",
@@ -310,8 +310,8 @@ static void keep(void *said, const char *message) {
     snprintf(said, 1024, "%s", message);
 }
 
-/* What no origin can make exact is warned of: small shapes far from the others. What is small beside others,
- * or alone, is exact. */
+/* Warnings for scenes that no origin makes exact: small shapes far from the others. Small shapes close to
+ * others, or alone, are exact. */
 static void warns_of_what_is_not_exact(void **state) {
     (void)state;
     static const struct {

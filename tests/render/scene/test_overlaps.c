@@ -1,4 +1,4 @@
-/* Overlaps of many triangles are those of all their pairs, looked at one by one. */
+/* Overlaps of many triangles equal those of all pairs by brute force. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -53,7 +53,7 @@ static void add_back(mesh *m, uint64_t seed) {
                     m->corners[i][2 - c][d] + 1e-7 * (unit(seed, 100 + 9 * i + 3 * c + d) - 0.5);
 }
 
-/* Each in a plane of its own; all planes hold one direction, or nearly so. */
+/* Each in a separate plane; all planes share one direction, or nearly so. */
 static void add_fan(mesh *m, const double direction[3], uint64_t seed) {
     for (size_t i = 0; i < 100; ++i, ++m->count)
         for (size_t c = 0; c < 3; ++c)
@@ -65,7 +65,7 @@ static void add_fan(mesh *m, const double direction[3], uint64_t seed) {
                                  (c == 0 ? 0.0 : m->corners[m->count][0][d]);
 }
 
-/* Places and frames by a hash; the k-th kind of mesh. */
+/* Positions and frames by a hash; the k-th kind of mesh. */
 static void make(mesh *m, int kind, uint64_t seed) {
     m->count = 0;
     double start[3], across[3], along[3];

@@ -1,5 +1,5 @@
-/* Phase functions: each integrates to 1, its draws have its density, and its values are those of
- * Mitsuba 3.9.1 or of its formula. */
+/* Phase functions: each integrates to 1, its samples have its pdf, and its values are those of Mitsuba 3.9.1
+ * or of its formula. */
 #include "check.h"
 
 #include <string.h>
@@ -120,7 +120,7 @@ static void has_the_values_of_mitsuba(void **state) {
 }
 
 /* The mean cosine of Henyey and Greenstein is g, also where float formulas are near their end. */
-static void narrow_ones_keep_their_mean(void **state) {
+static void narrow_ones_preserve_their_mean(void **state) {
     (void)state;
     static const char *const texts[] = {"0.5", "-0.9", "0.999", "0.99999999", "-0.99999999"};
     static const double means[] = {0.5, -0.9, 0.999, 1.0, -1.0};
@@ -173,7 +173,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(draws_have_the_density),
         cmocka_unit_test(has_the_values_of_mitsuba),
-        cmocka_unit_test(narrow_ones_keep_their_mean),
+        cmocka_unit_test(narrow_ones_preserve_their_mean),
         cmocka_unit_test(refuses_what_is_no_density),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

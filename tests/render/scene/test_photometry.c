@@ -1,5 +1,5 @@
-/* Files of measured lamps: every symmetry of both formats against the function that it was written from, flux
- * against closed forms, and damage. */
+/* Photometric files of luminaires: every symmetry of both formats against the generating function, flux
+ * against closed forms, and damaged files. */
 #include "check.h"
 
 #include <stdio.h>
@@ -30,7 +30,7 @@ static double tent(double c, double middle) {
 static double measured(int symmetry, double c, double gamma) {
     double value = 100.0 + 0.5 * gamma;
     if (symmetry != 1)
-        value += 40.0 * fabs(2.0 * tent(c, 0.0) - 1.0); /* four quarters alike */
+        value += 40.0 * fabs(2.0 * tent(c, 0.0) - 1.0); /* four equal quarters */
     if (symmetry == 0 || symmetry == 2)
         value += 30.0 * tent(c, 0.0);
     if (symmetry == 0 || symmetry == 3)

@@ -1,4 +1,4 @@
-/* Objects by the name of their type: the order of steps, on a kind made for this test. */
+/* Creating objects by the name of their type: the order of steps, for a kind defined by this test. */
 #include "check.h"
 
 #include <stddef.h>
@@ -88,7 +88,7 @@ static void creates_and_destroys(void **state) {
     assert_int_equal(released, 1);
 }
 
-/* What has been made is released once, and nothing where the type is unknown. */
+/* Created objects are released once; nothing is released if the type is unknown. */
 static void failures_release(void **state) {
     (void)state;
     static const struct {

@@ -86,8 +86,8 @@ static bool contains(size_t count, const double (*p)[2], double x, double y) {
     return inside;
 }
 
-/* Outlines of any form, and a hole by a seam that goes there and back: where rays meet them is where points
- * are inside, and the area is the outline's. */
+/* Outlines of any form, and a hole by a seam that goes there and back: rays hit where points are inside, and
+ * the area is the outline's. */
 static void cuts_polygons(void **state) {
     (void)state;
     static const struct {
@@ -316,7 +316,7 @@ static void takes_means_of_matrices(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What --diffuse makes of what is not supported, one warning counts. */
+/* Replacements by --diffuse for unsupported materials; one warning counts them. */
 static void takes_diffuse_parts(void **state) {
     (void)state;
     static const char text[] =
@@ -440,8 +440,8 @@ static void bad_input(void **state) {
     }
 }
 
-/* What is not read is said at once, and before the mesh is looked for: the last of it is the error. What is
- * wrong besides is the error where the file cannot be read on. */
+/* Unsupported objects are reported immediately, before the mesh is searched; the last one is the error. Other
+ * mistakes are the error if the file cannot be read on. */
 static void says_all_that_is_left_out(void **state) {
     (void)state;
     static const struct {
@@ -473,7 +473,7 @@ static void says_all_that_is_left_out(void **state) {
             rows[i].result);
         assert_string_equal(said, rows[i].warnings);
         assert_non_null(strstr(error.message, rows[i].message));
-        /* nobody need ask for it */
+        /* it is the default */
         assert_int_equal(
             aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, NULL, &scene, NULL),
             rows[i].result);

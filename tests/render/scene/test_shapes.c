@@ -72,7 +72,7 @@ static void hits_curved_shapes(void **state) {
             assert_near(gradient[2], normal.z, 1e-5);
             assert_true(surface.texture.u >= 0.0f && surface.texture.u <= 1.0f + 1e-6f);
             assert_true(surface.texture.v >= 0.0f && surface.texture.v <= 1.0f + 1e-6f);
-            /* onward through the shape */
+            /* further through the shape */
             const aur_ray continuation = aur_surface_ray(&surface, ray.direction);
             aur_hit second;
             const bool again = aur_scene_intersect(scene, &continuation, &second);
@@ -292,7 +292,7 @@ static void normals_are_finite(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Elements of a PLY file may stand in any order. */
+/* Elements of a PLY file may be in any order. */
 static void reads_faces_before_vertices(void **state) {
     (void)state;
     write_text(
@@ -309,7 +309,7 @@ static void reads_faces_before_vertices(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What a mesh file may get wrong, and the line and message that tell. */
+/* Errors in a mesh file, with the line and message that report them. */
 static const struct bad_mesh {
     const char *file, *text;
     size_t line;
@@ -378,7 +378,7 @@ static void says_what_is_wrong_in_meshes(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* A copy of a group is what the same shapes are when they are moved themselves, hit by hit. */
+/* Instances of a group equal the same shapes transformed individually, hit by hit. */
 static void copies_groups(void **state) {
     (void)state;
     static const char *const move =

@@ -186,7 +186,7 @@ static aur_vector about(size_t up, double height, double azimuth) {
 
 /* Midpoints of 800 heights and 800 azimuths: the radiance's kink at the sun, where it falls by up to 5 % a
  * degree, leaves 1e-5. */
-static void irradiance_is_as_asked(void **state) {
+static void irradiance_reaches_the_target(void **state) {
     (void)state;
     enum { FINE = 800 };
     static const double expected[SKIES][3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1},
@@ -208,7 +208,7 @@ static void irradiance_is_as_asked(void **state) {
             assert_relative(sum[c], expected[k][c], 2e-5);
         aur_scene_destroy(scene);
     }
-    /* what the ground says, in RGB and of the albedo */
+    /* what the ground contributes, in RGB and by the albedo */
     aur_scene *scene = load_sky(skies[1]);
     assert_near(aur_scene_environment(scene, (aur_vector){0.6f, 0.0f, -0.8f}).z, 0.3, 1e-7);
     aur_scene_destroy(scene);
@@ -237,10 +237,10 @@ static void brightness_by_four_keys(void **state) {
     }
 }
 
-/* Directions as they are drawn are distributed as the density says: 24 x 16 bins, of which the lower half are
- * one, by Pearson's statistic; a right program fails with a chance of 1e-6 a sky (5 standard deviations of
- * the statistic's cube root, Wilson and Hilferty 1931), and the numbers are fixed. The density adds up to 1
- * over midpoints of its own patches. */
+/* Sampled directions are distributed by the pdf: 24 x 16 bins, the lower half merged into one, by Pearson's
+ * statistic. A correct program fails with a probability of 1e-6 per sky (5 standard deviations of the
+ * statistic's cube root, Wilson and Hilferty 1931), and the numbers are fixed. The pdf integrates to 1 over
+ * midpoints of its patches. */
 static void draws_what_it_says(void **state) {
     (void)state;
     enum { AROUND = 24, HEIGHTS = 8, BINS = AROUND * HEIGHTS + 1, COUNT = 100000, FINE = 4 };
@@ -293,8 +293,8 @@ static void draws_what_it_says(void **state) {
 
 /* --- the sun */
 
-/* On a plane that faces the disk: pi sin^2 of its half angle times the radiance, whatever the angle; and no
- * more when it stands beside a sky, whose light and density come on top. */
+/* On a plane facing the disk: pi sin^2 of its half angle times the radiance, for any angle; with a sky, the
+ * sky's light and pdf are added. */
 static void suns_have_closed_forms(void **state) {
     (void)state;
     static const double angles[] = {0.2665, 5.0, 60.0, 90.0};
@@ -327,8 +327,8 @@ static void suns_have_closed_forms(void **state) {
     }
 }
 
-/* Light from all sides onto a point, by drawn points on lights and by uniform directions: the same, also
- * where a wide sun stands before a sky, and behind a wall. */
+/* Fluence at a point, by sampled points on lights and by uniform directions: the same, also with a wide sun
+ * in front of a sky, and behind a wall. */
 static void adds_up(const char *body) {
     enum { COUNT = 200000 };
     aur_scene *const scene = must_load_body(body);
@@ -351,7 +351,7 @@ static void adds_up(const char *body) {
         }
     }
     const double sigma = sqrt((squares[0] - sums[0] * sums[0] + squares[1] - sums[1] * sums[1]) / COUNT);
-    assert_near(sums[0], sums[1], 4.5 * sigma); /* by chance in 7 of a million; the numbers are fixed */
+    assert_near(sums[0], sums[1], 4.5 * sigma); /* exceeded with probability 7e-6; the numbers are fixed */
     aur_scene_destroy(scene);
 }
 
@@ -409,8 +409,8 @@ static void sunsky_as_in_mitsuba(void **state) {
     }
 }
 
-/* Where the sun of a date is, in a turned frame: as Mitsuba says it, to .02 degrees; an albedo by <spectrum>
- * is that of <rgb>; and at night it is dark. */
+/* The sun's position for a date, in a rotated frame: as in Mitsuba, to .02 degrees; an albedo by <spectrum>
+ * equals that of <rgb>; and at night it is dark. */
 static void sunsky_by_date_and_time(void **state) {
     (void)state;
     static const char turned[] =
@@ -542,7 +542,7 @@ int main(void) {
         cmocka_unit_test(gradations_have_closed_forms),
         cmocka_unit_test(skies_are_symmetric),
         cmocka_unit_test(perez_as_published),
-        cmocka_unit_test(irradiance_is_as_asked),
+        cmocka_unit_test(irradiance_reaches_the_target),
         cmocka_unit_test(brightness_by_four_keys),
         cmocka_unit_test(draws_what_it_says),
         cmocka_unit_test(suns_have_closed_forms),

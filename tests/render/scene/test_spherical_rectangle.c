@@ -35,8 +35,8 @@ static const aur_vector middles[] = {
     {0.0f, 1.0f, 0.0f}, {0.3f, -0.4f, 0.2f}, {1.2f, 1.0f, -0.6f}, {-0.7f, 0.05f, 0.1f}, {0.5f, 2.5f, 1.0f}};
 enum { MIDDLE_COUNT = sizeof middles / sizeof middles[0] };
 
-/* The pieces sum to the closed form, and so many of the points that u, v stand for lie in a part of the
- * rectangle as its solid angle says: u cuts strips, v cuts within a strip. */
+/* The pieces sum to the closed form, and the fraction of u, v in a part of the rectangle is that of its solid
+ * angle: u cuts strips, v cuts within a strip. */
 static void points_are_uniform_by_solid_angle(void **state) {
     (void)state;
     const aur_vector origin = {0};
@@ -81,13 +81,13 @@ static double solid_angle_about(const aur_rectangle *r, aur_vector p) {
     return height / (squared * sqrt(squared)) * (double)(r->width * r->height);
 }
 
-/* What a density is over that area. */
+/* The integral of a pdf over that area. */
 static double by_area(const aur_seen_rectangle *seen, double solid_angle, float density) {
     return seen->by_area ? (double)density : (double)density * solid_angle;
 }
 
-/* Densities add up to 1 over the rectangle, and drawing tells the density that asking tells. The midpoint
- * rule leaves less than 4e-3 where the point is as near as here. */
+/* Pdfs integrate to 1 over the rectangle, and sampling returns the pdf of evaluation. The midpoint rule has
+ * an error below 4e-3 for points as near as here. */
 static void densities_add_up(void **state) {
     (void)state;
     static const float scales[] = {1.0f, 6.0f}; /* by solid angle, by area */
@@ -145,9 +145,8 @@ static double drawn_irradiance(const aur_rectangle *r, aur_vector normal, aur_ve
     return sum;
 }
 
-/* Samples for a normal have the mean of those for none and never more of variance, by less than the grid's
- * error; where the rectangle is wholly above the horizon that is the closed form, and .13 of the variance in
- * the mean. */
+/* Samples for a normal have the mean of those without and never more variance, to the grid's error; if the
+ * rectangle is completely above the horizon that is the closed form, with .13 of the variance on average. */
 static void cosines_are_drawn(void **state) {
     (void)state;
     static const float scales[] = {1.0f, 2.5f, 6.0f};

@@ -63,7 +63,7 @@ static void looks_at(void **state) {
     assert_false(aur_transform_look_at((double[3]){0, 0, 0}, (double[3]){0, 1, 0}, (double[3]){0, 1, 0}, &a));
 }
 
-/* Normals stay perpendicular to what they were perpendicular to. */
+/* Normals remain perpendicular to transformed tangents. */
 static void moves_normals(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 50; ++seed) {

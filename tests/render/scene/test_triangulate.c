@@ -1,5 +1,5 @@
 /* Random outlines of many forms: their triangles have the area of the shoelace formula and cover the points
- * whose winding number is 1, once, whichever corner comes first and whichever way the outline goes round. */
+ * of winding number 1 once, for any first corner and either orientation. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,7 +88,7 @@ static void make_holes(outline *o, size_t count) {
     put(o, 0.0, 3.0);
 }
 
-/* A hole whose corner is a corner of the border, reached by a seam from elsewhere; repeated and collinear
+/* A hole that shares a corner with the border, reached by a seam from elsewhere; repeated and collinear
  * corners. */
 static void make_touching(outline *o, size_t count) {
     (void)count;
@@ -98,7 +98,7 @@ static void make_touching(outline *o, size_t count) {
         put(o, p[i][0], p[i][1]);
 }
 
-/* A seam that leads nowhere, and one that goes on from hole to hole. */
+/* A seam that ends nowhere, and one that continues from hole to hole. */
 static void make_chain(outline *o, size_t count) {
     put(o, 0.0, 0.0);
     put(o, 3.0 * (double)count + 1.0, 0.0);
@@ -171,7 +171,7 @@ static void check_cover(const outline *o, const aur_face_cut *cut) {
     }
 }
 
-/* The triangles' corners by place, which other readings of the same outline must have too. */
+/* The triangles' corners by position, which rotations of the same outline must have too. */
 static void list_places(const double (*points)[3], const aur_face_cut *cut, bool turned,
                         double (*places)[3]) {
     for (size_t i = 0; i < 3 * cut->triangle_count; ++i) {
@@ -249,7 +249,7 @@ static aur_face_flaw flaw_of(size_t count, const double (*corners)[3]) {
     return cut.flaw;
 }
 
-static void flaws_are_told_apart(void **state) {
+static void flaws_are_distinguished(void **state) {
     (void)state;
     static const double line[4][3] = {{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {2, 2, 2}},
                         point[3][3] = {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}},
@@ -275,7 +275,7 @@ static void flaws_are_told_apart(void **state) {
 int main(void) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(outlines_are_covered_once),
-        cmocka_unit_test(flaws_are_told_apart),
+        cmocka_unit_test(flaws_are_distinguished),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Grids of values: Mitsuba's at the same points, what is refused, and that no value is above the majorant of
- * its cell, along rays too. */
+/* Grid volumes: Mitsuba's values at the same points, invalid input, and no value above the majorant of its
+ * cell, along rays too. */
 #include "render/scene/scene_text.h"
 #include "render/scene/vol_file.h"
 
@@ -27,7 +27,7 @@ static aur_result make(size_t size, const char *bytes, const char *const *more, 
     return result;
 }
 
-/* 4 x 3 x 2 voxels with three that are not 0: what Mitsuba 3.9.1 gives for this grid. */
+/* 4 x 3 x 2 voxels, three of them nonzero: Mitsuba 3.9.1's values for this grid. */
 static void has_the_values_of_mitsuba(void **state) {
     (void)state;
     float values[24] = {0};
@@ -147,7 +147,7 @@ static void no_value_is_above_its_majorant(void **state) {
                     assert_true(2.0f * aur_vector_max(value) <= majorant);
                 }
             }
-            /* What lies in the cube, by small steps. */
+            /* The part in the cube, by small steps. */
             enum { STEPS = 4000 };
             size_t inside = 0;
             const float end = i % 3 == 0 ? 0.7f : 6.0f;

@@ -1,4 +1,4 @@
-/* A .vol file as Mitsuba 3 writes it, made in memory. */
+/* A .vol file in Mitsuba 3's format, created in memory. */
 #pragma once
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
-/* Embree's trees of things that lie there twice: which of two hits at one distance wins is the same by any
- * number of threads, whose work it divides where a part has some thousand primitives. */
+/* Embree's trees with duplicate primitives: of two hits at one distance, the same one wins for any number of
+ * threads, which share the work if a part has some thousand primitives. */
 #include "check.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static float *make_points(void) {
     return points;
 }
 
-/* Attaches a buffer of indices, for Embree to keep. */
+/* Attaches a buffer of indices, retained by Embree. */
 static uint32_t *make_indices(RTCGeometry geometry, enum RTCFormat format, size_t each, size_t count) {
     uint32_t *const indices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, format, each * sizeof(uint32_t), count);
@@ -75,7 +75,7 @@ static void add_splines(RTCDevice device, RTCScene scene, float *points) {
     add_curves(device, scene, points, RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE, 4);
 }
 
-/* --- balls that Embree asks us for, each a geometry of its own as a scene's curved shapes are */
+/* --- balls by user-geometry callbacks, each a separate geometry like a scene's curved shapes */
 
 static void find_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     const float *const ball = arguments->geometryUserPtr;
@@ -87,7 +87,7 @@ static void find_bounds(const struct RTCBoundsFunctionArguments *arguments) {
                                               .upper_z = ball[2] + ball[3]};
 }
 
-/* Rays come one by one, straight from above. */
+/* Single rays, vertically from above. */
 static void find_ball(const struct RTCIntersectFunctionNArguments *arguments) {
     const float *const ball = arguments->geometryUserPtr;
     struct RTCRayHit *const query = (struct RTCRayHit *)arguments->rayhit;
@@ -115,7 +115,7 @@ static void add_balls(RTCDevice device, RTCScene scene, float *points) {
 
 typedef void add_function(RTCDevice device, RTCScene scene, float *points);
 
-/* What each ray meets, and how many meet anything. */
+/* The hit of each ray, and the number of hits. */
 static size_t find_hits(add_function *add, float *points, const char *configuration, uint32_t (*hits)[2]) {
     const RTCDevice device = rtcNewDevice(configuration);
     const RTCScene scene = rtcNewScene(device);
@@ -160,7 +160,7 @@ static void threads_decide_no_tie(void **state) {
     free(points);
 }
 
-/* The threads that are asked for build large trees, and never more. */
+/* The requested threads build large trees, and never more. */
 static void threads_are_bounded(void **state) {
     (void)state;
     static const struct {

@@ -38,9 +38,8 @@ static void spoil(aur_packet *packet, size_t lane) {
     packet->valid[lane] = 0;
 }
 
-/* Packets find what single rays find, lane by lane, whichever lanes are in use and in either order. Single
- * rays and packets are different code of Embree, so at an edge each may name another of the faces that meet
- * there. */
+/* Packets find the hits of single rays, lane by lane, for any active lanes and either order. Single rays and
+ * packets are different code in Embree, so at an edge each may report another of the adjacent faces. */
 static void packets_agree(const char *isa) {
     setenv("AUREOLE_EMBREE_ISA", isa, 1);
     aur_scene *const scene = must_load_body(body);
@@ -96,7 +95,7 @@ static void packets_agree(const char *isa) {
     unsetenv("AUREOLE_EMBREE_ISA");
 }
 
-/* By packets of 4, 8 and 16, which are those that Embree has instructions for. */
+/* By packets of 4, 8 and 16, the sizes of Embree's kernels. */
 static void packets_agree_with_single_rays(void **state) {
     (void)state;
     packets_agree("portable");
@@ -111,8 +110,8 @@ static __attribute__((noinline)) void spoil_stack(void) {
         bytes[i] = 0xff;
 }
 
-/* Without curved shapes Embree takes another way through instances, which never ended for shadow rays said to
- * be coherent. */
+/* Without curved shapes Embree traverses instances by another path, which never ended for shadow rays flagged
+ * as coherent. */
 static void shadows_of_instances_end(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(

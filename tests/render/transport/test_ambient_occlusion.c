@@ -1,4 +1,4 @@
-/* Ambient occlusion against closed forms, and what must not change it. */
+/* Ambient occlusion against closed forms, and invariances. */
 #include "../scene/scene_text.h"
 
 #include <aureole-render/adaptive.h>
@@ -157,9 +157,9 @@ static void refuses(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* To an error, nobody knows how many samples there will be: patterns follow one another. Within a ball 15/16
- * are found, by groups of 16 pixels that are wrong alike: the mean's error is at most that of 24 independent
- * ones, of which 4 are allowed. */
+/* With a target error the final number of samples is unknown: patterns follow each other. In a ball 15/16 are
+ * found, by groups of 16 pixels with equal errors: the mean's error is at most that of 24 independent ones,
+ * of which 4 are allowed. */
 static void to_an_error(void **state) {
     (void)state;
     aur_scene *const ball = must_load_body("<shape type='sphere'><float name='radius' value='2'/></shape>");
@@ -168,16 +168,16 @@ static void to_an_error(void **state) {
     for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; ++i) {
         const aur_render_options options = {
             .size = sizeof options, .integrator = patterns[i], .width = 24, .height = 16};
-        aur_adaptive_options wish = {.size = sizeof wish};
-        aur_adaptive_options_init(&wish, NULL);
+        aur_adaptive_options target = {.size = sizeof target};
+        aur_adaptive_options_init(&target, NULL);
         aur_renderer *renderer = NULL;
         aur_adaptive *ask = NULL;
         aur_image *image = NULL;
         aur_error error = {0};
         double mean[4];
-        wish.error = 0.02;
+        target.error = 0.02;
         if (aur_renderer_create(ball, &renderer, &error) != AUR_OK ||
-            aur_adaptive_create(renderer, &options, &wish, &ask, &error) != AUR_OK ||
+            aur_adaptive_create(renderer, &options, &target, &ask, &error) != AUR_OK ||
             aur_adaptive_run(ask, &error) != AUR_OK ||
             aur_adaptive_develop(ask, false, &image, &error) != AUR_OK ||
             aur_image_mean(image, mean, &error) != AUR_OK)

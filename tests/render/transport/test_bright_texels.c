@@ -5,7 +5,8 @@
 
 #include "render/photons/bright_texels.h"
 
-/* Every triangle of the Cornell box but the light's reflects a third of what it gets, on both sides. */
+/* Every triangle of the Cornell box except the light's reflects a third of the incident light, on both sides.
+ */
 static const float THIRD_ON_PI = 1.0f / 3.0f / AUR_PI_F;
 
 static aur_shape_class *make_classes(const aur_scene *scene) {
@@ -50,7 +51,7 @@ static double density_of_light(const box *b, size_t light) {
     return (double)aur_bright_texels_density(&b->bright, radiance);
 }
 
-/* The density integrates to 1 over the texels, the light's own left out, to rounding of floats. */
+/* The pdf integrates to 1 over the texels, the light's excluded, to rounding of floats. */
 static void density_is_one(void **state) {
     (void)state;
     box b = open_box(20000);
@@ -73,9 +74,9 @@ static void density_is_one(void **state) {
     close_box(&b);
 }
 
-/* Draws are points of bright texels: a ray from just above one back to it meets the triangle, at these
- * coordinates, from the side that shines. So the rays that gather see what is drawn. No draw is in the middle
- * of a texel, where its halves meet. */
+/* Samples are points of bright texels: a ray from just above one back to it hits the triangle, at these
+ * coordinates, from the emitting side. So gather rays see the sampled points. No sample is in the middle of a
+ * texel, where its halves meet. */
 static void draws_are_seen(void **state) {
     (void)state;
     box b = open_box(20000);
@@ -123,7 +124,7 @@ static void draws_follow_the_density(void **state) {
     for (size_t i = 0; i < 2 * b.map->texels.count; ++i) {
         const double expected = DRAWS * density_of_light(&b, i) * (double)b.map->lights[i].area;
         if (counts[i] == 0.0)
-            continue; /* the light's own texels are bright, but no part of the distribution */
+            continue; /* the light's texels are bright, but excluded from the distribution */
         ++lit;
         assert_near(counts[i], expected, 2.0 + 1e-3 * expected);
     }

@@ -34,7 +34,7 @@ static void shifted_numbers_stay_below_one(void **state) {
         }
 }
 
-/* What is left of the number serves the next choice, so that it must stay in [0,1), also where differences
+/* The remainder of the number is used for the next choice, so it must stay in [0,1), also where differences
  * round to the same number: at a share of 3 * 2^-25 and the largest number they do. */
 static void what_is_left_of_a_number_stays_below_one(void **state) {
     (void)state;
@@ -54,10 +54,9 @@ static void what_is_left_of_a_number_stays_below_one(void **state) {
     }
 }
 
-/* Each candidate is kept for an interval of the number, whose length is its share of the weights: of as many
- * numbers in equal steps it gets its share within 1, and rounding moves each end of it by less than one more.
- */
-static void candidates_are_kept_in_proportion(void **state) {
+/* Each candidate is chosen for an interval of the number, whose length is its share of the weights: among
+ * equidistant numbers it gets its share within 1, and rounding moves each end by less than one more. */
+static void candidates_are_chosen_in_proportion(void **state) {
     (void)state;
     enum { NUMBERS = 65536, COUNT = 7 };
     static const float weights[COUNT] = {0.0f, 1.0f, 0.0f, 3.0f, 2.0f, 0.125f, 0.0f};
@@ -87,7 +86,7 @@ static const char floor_of[] =
     "<translate y='-1'/></transform>%s</shape>";
 
 /* Glossy bodies, one of them metal, that stand on a glossy floor and throw shadows. None is plain to the
- * vector code, so that packets shade it as single paths do. */
+ * vector code, so packets shade them like single paths. */
 static const char bodies[] =
     "<shape type='sphere'><point name='center' x='-.8' y='-.2' z='5'/><float name='radius' value='.8'/>"
     "<bsdf type='roughconductor'><float name='alpha' value='.2'/></bsdf></shape>"
@@ -100,7 +99,7 @@ static const char block[] = "<shape type='cube'><transform name='to_world'><scal
                             "x='.3' y='-.3' z='5'/></transform>"
                             "<bsdf type='diffuse'/></shape>";
 static const char sky[] = "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter>";
-/* Lamps of every way to be drawn, two of which no ray finds. */
+/* Emitters of every sampling method, two of which no ray can hit. */
 static const char visible[] =
     "<shape type='sphere'><point name='center' x='1' y='2' z='4'/><float name='radius' value='.2'/>"
     "<emitter type='area'><rgb name='radiance' value='30,20,10'/></emitter></shape>"
@@ -152,7 +151,7 @@ static void close_stage(stage *s) {
     aur_scene_destroy(s->scene);
 }
 
-/* RGB of all pixels; what rays it took. */
+/* RGB of all pixels; number of rays. */
 static uint64_t render(const stage *s, const char *integrator, size_t seed, float pixels[3 * PIXELS]) {
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
@@ -179,9 +178,9 @@ static double sum_of(const float pixels[3 * PIXELS]) {
     return sum;
 }
 
-/* Whole images with and without candidates, in pairs of one seed: the mean of 64 differences in its
- * standard error is Student's t of 63 degrees of freedom, beyond 4 one time in 5,900. The images know the
- * mean to half a percent, so that a bias of 2 % is found. */
+/* Whole images with and without candidates, in pairs of one seed: the mean of 64 differences over its
+ * standard error is Student's t with 63 degrees of freedom, beyond 4 one time in 5,900. The images determine
+ * the mean to half a percent, so a bias of 2 % is found. */
 static void assert_same_mean(const stage *s, const char *without, const char *with) {
     double sum = 0.0, squares = 0.0, whole = 0.0;
     for (size_t seed = 0; seed < SEEDS; ++seed) {
@@ -231,9 +230,9 @@ static double variance_of(const stage *s, const char *integrator) {
     return variance / (PIXELS / 2 - SIDE);
 }
 
-/* Where nothing hides the sky, candidates take the material and the cosine into the density. Their ratios are
- * .56 and .60 for two, .54 and .63 from two to four; a mean of 112 variances of 64 values each is known to
- * some 5 %, so that the limit of .8 is far from chance. */
+/* If nothing hides the sky, candidates include the material and the cosine in the pdf. Their ratios are .56
+ * and .60 for two, .54 and .63 from two to four; a mean of 112 variances of 64 values each has an error of
+ * some 5 %, so the limit of .8 is far from noise. */
 static void variance_falls_under_an_open_sky(void **state) {
     (void)state;
     if (check_short())
@@ -253,7 +252,7 @@ static void variance_falls_under_an_open_sky(void **state) {
 
 static void assert_same_bits(const stage *s, const char *one, const char *other) {
     float a[3 * PIXELS], b[3 * PIXELS];
-    render(s, one, 1, a); /* which finds where lamps are for those that follow */
+    render(s, one, 1, a); /* which learns where emitters are for the following renders */
     const uint64_t rays = render(s, one, 1, a);
     assert_int_equal(render(s, other, 1, b), rays);
     assert_memory_equal(a, b, sizeof a);
@@ -292,7 +291,7 @@ static void one_shadow_ray_at_a_surface(void **state) {
     const uint64_t many = render(&lit, "path:max_depth=2,lamp_rays=0,candidates=16", 1, pixels);
     assert_true(one <= many && many <= 3 * samples);
     close_stage(&lit);
-    /* A lamp that turns its back to the floor. */
+    /* An emitter facing away from the floor. */
     stage dark = open_stage(diffuse, "",
                             "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='-90'/>"
                             "<translate y='9' z='3'/></transform><emitter type='area'/></shape>");
@@ -303,7 +302,7 @@ static void one_shadow_ray_at_a_surface(void **state) {
     close_stage(&dark);
 }
 
-static void tells_of_numbers_out_of_range(void **state) {
+static void reports_numbers_out_of_range(void **state) {
     (void)state;
     stage s = open_stage(glossy, "", sky);
     static const char *const wrong[] = {"path:candidates=0", "path:candidates=65", "path:candidates=1.5"};
@@ -323,13 +322,13 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shifted_numbers_stay_below_one),
         cmocka_unit_test(what_is_left_of_a_number_stays_below_one),
-        cmocka_unit_test(candidates_are_kept_in_proportion),
+        cmocka_unit_test(candidates_are_chosen_in_proportion),
         cmocka_unit_test(means_are_those_of_one_candidate),
         cmocka_unit_test(variance_falls_under_an_open_sky),
         cmocka_unit_test(packets_are_single_paths),
         cmocka_unit_test(one_candidate_is_as_without),
         cmocka_unit_test(one_shadow_ray_at_a_surface),
-        cmocka_unit_test(tells_of_numbers_out_of_range),
+        cmocka_unit_test(reports_numbers_out_of_range),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,5 @@
-/* Final gathering whose photon map is corrected by paths, or replaced by them where texels are near, has the
- * light of path tracing, where the map by itself is wrong: few photons, a slit under a block, a wall that
+/* Final gathering whose photon map is corrected by paths, or replaced by them where texels are near,
+ * converges to path tracing, where the map alone is wrong: few photons, a slit under a block, a wall that
  * light leaks through, glossy walls and glass. */
 #include "render/scene/scene_text.h"
 
@@ -13,11 +13,11 @@ enum { SIDE = 8, BLOCKS = 16, SEEDS = 32 };
 
 #define MATTE(r)                                                                                             \
     "<bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' value='" r "'/></bsdf></bsdf>"
-#define LAMP                                                                                                 \
+#define EMITTER                                                                                              \
     "<shape type='rectangle'><transform name='to_world'><scale value='0.3'/><rotate x='1' angle='90'/>"      \
     "<translate x='-0.5' y='0.99'/></transform><emitter type='area'><rgb name='radiance' value='5 4 "        \
     "3'/></emitter></shape>"
-#define ROOM "<shape type='cube'>" MATTE("0.7 0.5 0.3") "</shape>" LAMP
+#define ROOM "<shape type='cube'>" MATTE("0.7 0.5 0.3") "</shape>" EMITTER
 /* Stands a fortieth above the floor, and is glossy. */
 #define BLOCK                                                                                                \
     "<shape type='cube'><transform name='to_world'><scale x='0.4' y='0.25' z='0.4'/><translate x='0.2' "     \
@@ -28,7 +28,7 @@ enum { SIDE = 8, BLOCKS = 16, SEEDS = 32 };
     "value='0.3'/><bsdf type='roughconductor'><float name='alpha' value='0.2'/></bsdf></shape>"              \
     "<shape type='sphere'><point name='center' x='0.5' y='0.2' z='0.3'/><float name='radius' "               \
     "value='0.2'/><bsdf type='plastic'/></shape>"
-/* Between the lamp and most of the room, up to .05 above the floor. */
+/* Between the light source and most of the room, up to .05 above the floor. */
 #define SCREEN                                                                                               \
     "<shape type='rectangle'><transform name='to_world'><rotate y='1' angle='90'/><translate x='-0.1' "      \
     "y='0.05'/></transform>" MATTE("0.5") "</shape>"
@@ -89,7 +89,7 @@ static void agrees_with_paths(void **state) {
     static const char *const bodies[] = {ROOM BLOCK, ROOM SCREEN, ROOM BLOCK BALLS SCREEN};
     static const char *const forms[] = {"", ",bright_samples=8", ",weights=mis", ",edges=0,continued=1",
                                         ",packets=false"};
-    /* One of all blocks, scenes and forms lies beyond by chance once in a thousand runs. */
+    /* Over all blocks, scenes and forms one exceeds the limit by noise once in a thousand runs. */
     const size_t comparisons = BLOCKS * 3 * (sizeof forms / sizeof forms[0] + 1);
     const double most = aur_student_quantile(SEEDS - 1, 1.0 - 0.0005 / (double)comparisons);
     static double paths[SEEDS][BLOCKS], gathered[SEEDS][BLOCKS];
@@ -125,7 +125,7 @@ static void agrees_with_paths(void **state) {
 
 enum { PICTURE = 24 };
 
-static aur_image *render_picture(aur_renderer *renderer, const char *form, const char *keys) {
+static aur_image *render_image(aur_renderer *renderer, const char *form, const char *keys) {
     char integrator[512];
     snprintf(integrator, sizeof integrator, "finalgather-lab:photons=300%s%s", form, keys);
     aur_render_options options = {.size = sizeof options};
@@ -155,12 +155,12 @@ static void correction_is_the_difference(void **state) {
     aur_renderer *renderer;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        char whole_keys[64], lone_keys[128];
+        char whole_keys[64], single_keys[128];
         snprintf(whole_keys, sizeof whole_keys, "%s,debias=true", cases[k].share);
-        snprintf(lone_keys, sizeof lone_keys, "%s,debias=only", cases[k].share);
-        aur_image *const plain = render_picture(renderer, cases[k].form, "");
-        aur_image *const whole = render_picture(renderer, cases[k].form, whole_keys);
-        aur_image *const single = render_picture(renderer, cases[k].form, lone_keys);
+        snprintf(single_keys, sizeof single_keys, "%s,debias=only", cases[k].share);
+        aur_image *const plain = render_image(renderer, cases[k].form, "");
+        aur_image *const whole = render_image(renderer, cases[k].form, whole_keys);
+        aur_image *const single = render_image(renderer, cases[k].form, single_keys);
         double most = 0.0, off = 0.0, least = 0.0;
         for (size_t v = 0; v < 3 * PICTURE * PICTURE; ++v) {
             const double known = (double)aur_image_data(plain)[v], added = (double)aur_image_data(single)[v];
@@ -250,10 +250,10 @@ static double variance_over_seeds(const aur_scene *scene, const char *integrator
     return sum;
 }
 
-/* With so few photons and so many directions images of different seeds differ by their photons, unless
- * these have a seed of their own. Were it idle, the ratio of both variances, of 31 degrees at least, would be
- * below a quarter once in ten thousand times (F). */
-static void photons_may_have_a_seed_of_their_own(void **state) {
+/* With so few photons and so many directions images of different seeds differ by their photons, unless these
+ * have a separate seed. If that had no effect, the ratio of both variances, with 31 degrees of freedom at
+ * least, would be below a quarter once in ten thousand times (F). */
+static void photons_may_have_a_separate_seed(void **state) {
     (void)state;
     const char *const own =
         "finalgather:photons=300,diffuse_samples=256,short_rays=0,direct=none,photon_seed=7";
@@ -267,8 +267,8 @@ static void count_warning(void *user, const char *message) {
     *(size_t *)user += strstr(message, "'levels' belongs to adaptive=true") != NULL;
 }
 
-/* A comma ends the pattern's keys: what follows is finalgather's own, which is told where it does nothing. */
-static void idle_keys_are_told(void **state) {
+/* A comma ends the pattern's keys: the rest is finalgather's, which reports keys without effect. */
+static void unused_keys_are_reported(void **state) {
     (void)state;
     static const struct {
         const char *integrator;
@@ -302,8 +302,8 @@ int main(void) {
         cmocka_unit_test(correction_is_the_difference),
         cmocka_unit_test(leaves_out_what_paths_cannot_find),
         cmocka_unit_test(refuses_other_bias),
-        cmocka_unit_test(photons_may_have_a_seed_of_their_own),
-        cmocka_unit_test(idle_keys_are_told),
+        cmocka_unit_test(photons_may_have_a_separate_seed),
+        cmocka_unit_test(unused_keys_are_reported),
     };
     return cmocka_run_group_tests_name("transport/debias", tests, enter_folder, leave_folder);
 }

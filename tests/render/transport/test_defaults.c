@@ -1,5 +1,5 @@
-/* What is on by default because it is faster traces no more rays than the plain form that it replaces. By
- * time the same rows stand in `aureole-bench defaults`. */
+/* Options that are on by default for speed trace no more rays than the plain form. `aureole-bench defaults`
+ * compares the same rows by time. */
 #include "check.h"
 #include "program/lab/gather.h"
 

@@ -1,6 +1,5 @@
-/* Rays for lamps alone: how much of a lamp pixels see against its size in closed form, what it takes off
- * their variance, and the same bits in packets, by single paths, in any steps, in crops and on any threads.
- */
+/* Emitter rays: the visible share of an emitter in pixels against its size in closed form, the reduction of
+ * variance, and identical bits in packets, by single paths, in any steps, in crops and with any threads. */
 #include "check.h"
 
 #include <math.h>
@@ -33,7 +32,7 @@ static aur_render_options options_of(const char *integrator, size_t seed) {
 }
 
 /* The image by steps of so many samples. */
-static aur_image *picture_in_steps(aur_renderer *renderer, const aur_render_options *options, size_t step) {
+static aur_image *image_in_steps(aur_renderer *renderer, const aur_render_options *options, size_t step) {
     aur_render *render = NULL;
     aur_image *image = NULL;
     assert_int_equal(aur_render_create(renderer, options, &render, NULL), AUR_OK);
@@ -44,7 +43,7 @@ static aur_image *picture_in_steps(aur_renderer *renderer, const aur_render_opti
     return image;
 }
 
-/* Mean and variance over seeds of what all pixels have together, of R. */
+/* Mean and variance over seeds of the sum of R over all pixels. */
 typedef struct moments {
     double mean, variance;
 } moments;
@@ -53,7 +52,7 @@ static moments measure(aur_renderer *renderer, const char *integrator) {
     double sum = 0.0, squares = 0.0;
     for (size_t seed = 0; seed < SEEDS; ++seed) {
         const aur_render_options options = options_of(integrator, seed);
-        aur_image *const image = picture_in_steps(renderer, &options, 4);
+        aur_image *const image = image_in_steps(renderer, &options, 4);
         double value = 0.0;
         for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i)
             value += (double)aur_image_data(image)[3 * i];
@@ -64,9 +63,10 @@ static moments measure(aur_renderer *renderer, const char *integrator) {
     return (moments){sum / SEEDS, (squares - sum * sum / SEEDS) / (SEEDS - 1)};
 }
 
-/* On the axis the lamp's outline is a circle of tangent r / root(d^2 - r^2), exactly. By own rays alone the
- * variance is many times larger: of four samples, n^-1.5 with the mean number of looks of some dozens. */
-static void tells_how_much_of_a_lamp_is_seen(void **state) {
+/* On the axis the emitter's outline is a circle of tangent r / root(d^2 - r^2), exactly. With camera rays
+ * only, the variance is many times larger: for four samples, n^-1.5 with a mean number of probes of some
+ * dozens. */
+static void reports_the_visible_share_of_an_emitter(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
@@ -82,7 +82,7 @@ static void tells_how_much_of_a_lamp_is_seen(void **state) {
                   emitter, z, own, with.variance, without.variance);
     assert_true(fabs(z) < 4.0 && fabs(own) < 4.0); /* one time in 8,000 of normal values */
     assert_true(with.variance < 0.05 * without.variance);
-    /* What paths bring is the same, whoever tells what is seen straight. */
+    /* The light of paths is the same, whichever rays count the directly visible emission. */
     const moments paths = measure(renderer, "path"), plain = measure(renderer, "path:lamp_rays=0");
     assert_true(fabs(paths.mean - plain.mean) < 4.0 * sqrt((paths.variance + plain.variance) / SEEDS));
     assert_true(paths.mean > 1.01 * with.mean && paths.variance < plain.variance);
@@ -101,21 +101,21 @@ static void same_bits_in_any_way(void **state) {
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     aur_render_options options = options_of("path", 1);
     options.threads = 1;
-    aur_image *const whole = picture_in_steps(renderer, &options, 4);
-    aur_image *const steps = picture_in_steps(renderer, &options, 1);
+    aur_image *const whole = image_in_steps(renderer, &options, 4);
+    aur_image *const steps = image_in_steps(renderer, &options, 1);
     options.threads = 3;
-    aur_image *const threads = picture_in_steps(renderer, &options, 4);
+    aur_image *const threads = image_in_steps(renderer, &options, 4);
     options.integrator = "path:packets=false,max_depth=1";
-    aur_image *const singles = picture_in_steps(renderer, &options, 4);
+    aur_image *const singles = image_in_steps(renderer, &options, 4);
     options.integrator = "path:max_depth=1";
-    aur_image *const packets = picture_in_steps(renderer, &options, 4);
+    aur_image *const packets = image_in_steps(renderer, &options, 4);
     assert_same_values(whole, steps);
     assert_same_values(whole, threads);
     assert_same_values(packets, singles);
     options.integrator = "path";
     options.crop_x0 = options.crop_y0 = SIDE / 2 - 1;
     options.crop_x1 = options.crop_y1 = SIDE / 2 + 3;
-    aur_image *const crop = picture_in_steps(renderer, &options, 4);
+    aur_image *const crop = image_in_steps(renderer, &options, 4);
     for (size_t y = 0; y < 4; ++y)
         assert_memory_equal(aur_image_data(crop) + 12 * y,
                             aur_image_data(whole) + 3 * ((SIDE / 2 - 1 + y) * SIDE + SIDE / 2 - 1),
@@ -128,7 +128,7 @@ static void same_bits_in_any_way(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_how_much_of_a_lamp_is_seen),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(reports_the_visible_share_of_an_emitter),
                                        cmocka_unit_test(same_bits_in_any_way)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,5 @@
-/* More rays of the eye at edges change no mean: not that of a lamp smaller than a pixel either, which a
- * pixel's few samples meet by chance. */
+/* Additional camera rays at edges do not change means, including that of an emitter smaller than a pixel,
+ * which a pixel's few samples hit with small probability. */
 #include "render/scene/scene_text.h"
 
 #include "program/lab/gather.h"
@@ -10,8 +10,8 @@
 
 enum { SEEDS = 3000, SAMPLES = 4 };
 
-/* The film spans [-1, 1]; its 8 x 8 pixels have edges of a quarter, the lamp one of a thirty-second. */
-#define LAMP(x, y)                                                                                           \
+/* The film spans [-1, 1]; its 8 x 8 pixels have sides of a quarter, the emitter one of a thirty-second. */
+#define EMITTER(x, y)                                                                                        \
     "<shape type='rectangle'><transform name='to_world'><scale value='0.015625'/><rotate y='1' "             \
     "angle='180'/><translate x='" x "' y='" y "' z='3'/></transform><emitter type='area'><rgb "              \
     "name='radiance' value='64'/></emitter></shape>"
@@ -23,12 +23,12 @@ static aur_renderer *open_scene(const char *file, const char *text, aur_scene **
     return renderer;
 }
 
-static void keeps_the_mean_of_a_small_lamp(void **state) {
+static void preserves_the_mean_of_a_small_emitter(void **state) {
     (void)state;
     aur_scene *scene;
     aur_renderer *const renderer = open_scene(
-        "lamp.xml", "<scene version='3.0.0'><sensor type='orthographic'/>" LAMP("0.125", "0.125") "</scene>",
-        &scene);
+        "lamp.xml",
+        "<scene version='3.0.0'><sensor type='orthographic'/>" EMITTER("0.125", "0.125") "</scene>", &scene);
     double mean = 0.0;
     for (size_t s = 0; s < SEEDS; ++s) {
         aur_render_options options = {.size = sizeof options};
@@ -161,7 +161,7 @@ static void finds_edges_that_a_wide_filter_sees(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(keeps_the_mean_of_a_small_lamp),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(preserves_the_mean_of_a_small_emitter),
                                        cmocka_unit_test(finds_edges_where_only_some_pixels_go_on),
                                        cmocka_unit_test(finds_edges_that_a_wide_filter_sees)};
     return cmocka_run_group_tests_name("transport/edges", tests, enter_folder, leave_folder);

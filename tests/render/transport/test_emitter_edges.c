@@ -1,5 +1,5 @@
-/* Lamps of a few pixels are looked at with many rays wherever they are: by what is known of them beforehand,
- * as samples may miss them. */
+/* Emitters of a few pixels are sampled by many probe rays wherever they are, from the scene description,
+ * because samples may miss them. */
 #include "check.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static const char body[] =
     "<bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf>"
     "<emitter type='area'><rgb name='radiance' value='1000'/></emitter></shape>";
 
-static double share_of_lamp(void) {
+static double share_of_emitter(void) {
     const double pixel = 2.0 * tan(22.5 * AUR_PI / 180.0) / SIDE;
     return AUR_PI * radius * radius / (distance * distance * pixel * pixel);
 }
@@ -42,7 +42,7 @@ static aur_render_options options_of(const char *integrator, const char *filter,
  * random samples as there are rays; by four alone it would be 17 times that. A wide filter spreads the share
  * over pixels with small chances, whose variances come to no more. Over 512 seeds a variance varies by a
  * 16th: twice is 16 of these. */
-static void meets_the_lamp_by_all_rays(void **state) {
+static void hits_the_emitter_by_all_rays(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
@@ -62,7 +62,7 @@ static void meets_the_lamp_by_all_rays(void **state) {
             squares += value * value;
             aur_image_destroy(image);
         }
-        const double share = share_of_lamp(), mean = sum / RUNS;
+        const double share = share_of_emitter(), mean = sum / RUNS;
         const double variance = (squares - sum * mean) / (RUNS - 1);
         const double expected = radiance * radiance * share * (1.0 - share) / (SAMPLES + EDGES);
         print_message("%s: mean %g of %g, variance %g of %g\n", filters[f], mean, radiance * share, variance,
@@ -74,7 +74,7 @@ static void meets_the_lamp_by_all_rays(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Pixels are those about the lamp's, as far as the filter reaches, and none where nobody asks for edges. */
+/* Pixels are those around the emitter's, as far as the filter reaches, and none without edges requested. */
 static void marks_what_the_filter_reaches(void **state) {
     (void)state;
     static const struct {
@@ -105,7 +105,7 @@ static void marks_what_the_filter_reaches(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(meets_the_lamp_by_all_rays),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_the_emitter_by_all_rays),
                                        cmocka_unit_test(marks_what_the_filter_reaches)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Pixels that gather along the same directions, or trace paths by the same numbers, have errors alike: these
- * must make no pattern in the image, nor add up over its parts. */
+/* Pixels that gather along the same directions, or trace paths by the same numbers, have correlated errors:
+ * these must form no pattern in the image, nor add up over its parts. */
 #include "check.h"
 
 #include <aureole-render/render.h>
@@ -79,7 +79,7 @@ static void parts_are_no_worse_than_the_whole(void **state) {
     check_pattern(CUBE, "finalgather:split=8,diffuse_samples=16,photons=250000", 3, 32, 1.5);
 }
 
-/* Glossy lobes have patterns of their own, few directions of which show where they come again. */
+/* Glossy lobes have separate patterns; few of their directions show where they repeat. */
 static void glossy_lobes_leave_no_pattern(void **state) {
     (void)state;
     check_pattern(
@@ -102,7 +102,7 @@ static void occlusion_leaves_no_pattern(void **state) {
 
 /* Columns of 1, 1, -1, -1: of period 4 along rows, with the same error down each column, and blocks of 8 x 8
  * pixels that have no mean. Half of all products of pixels one apart are 1, the others -1. */
-static void figures_of_a_known_pattern(void **state) {
+static void statistics_of_a_given_pattern(void **state) {
     (void)state;
     enum { SIDE = 16 };
     double values[3 * SIDE * SIDE];
@@ -112,7 +112,7 @@ static void figures_of_a_known_pattern(void **state) {
     assert_true(error_pattern_clumps(&pattern, 8) == 0.0);
     assert_true(error_pattern_clumps(&pattern, 2) == sqrt(4.0)); /* blocks of four equal errors */
     static const double along[] = {1.0, 1.0 / 15.0, -1.0, -1.0 / 13.0, 1.0};
-    for (size_t lag = 0; lag <= 4; ++lag) { /* of 15 and 13 pairs of a row, one more is alike or is not */
+    for (size_t lag = 0; lag <= 4; ++lag) { /* of 15 and 13 pairs per row, one more is correlated or is not */
         assert_float_equal(error_pattern_product(&pattern, lag, false), along[lag], 1e-14);
         assert_float_equal(error_pattern_product(&pattern, lag, true), 1.0, 1e-14);
     }
@@ -122,7 +122,7 @@ static void figures_of_a_known_pattern(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_of_a_known_pattern),        cmocka_unit_test(gathering_leaves_no_pattern),
+        cmocka_unit_test(statistics_of_a_given_pattern),     cmocka_unit_test(gathering_leaves_no_pattern),
         cmocka_unit_test(parts_are_no_worse_than_the_whole), cmocka_unit_test(paths_leave_no_pattern),
         cmocka_unit_test(glossy_lobes_leave_no_pattern),     cmocka_unit_test(occlusion_leaves_no_pattern),
     };

@@ -1,4 +1,4 @@
-/* Photon maps of final gathering are shared by renders that ask for the same one, and by no others. */
+/* Renders that request the same photon map share it, and no others do. */
 #include "check.h"
 
 #include <stdio.h>
@@ -35,8 +35,8 @@ static const aur_irradiance_map *map_of(const aur_integrator_context *context, c
     return map;
 }
 
-/* A file with other points is another set, whatever its name, and so are files whose long names differ at
- * their ends only. */
+/* A file with other points is another set, whatever its name, and so are files whose long names differ only
+ * at the end. */
 static void maps_go_by_content(void **state) {
     (void)state;
     aur_scene *scene = NULL;

@@ -1,4 +1,5 @@
-/* Pooled irradiance: the joint pattern's parts cancel, linear light is kept, and surfaces stay apart. */
+/* Pooled irradiance: the errors of the joint pattern's parts cancel, linear light is preserved, and surfaces
+ * are not mixed. */
 #include "check.h"
 
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 
 enum { SIDE = AUR_TILE_SIZE, BLOCK = AUR_GROUPS_A_SIDE };
 
-/* What the part of the pattern at a place of a 4 x 4 block finds too much: nothing over all sixteen. */
+/* The excess of the pattern's part at a position in a 4 x 4 block: zero over all sixteen. */
 static double part(size_t x, size_t y) {
     static const double of_column[BLOCK] = {0.7, -0.3, 0.1, -0.5}, of_row[BLOCK] = {-0.2, 0.4, -0.6, 0.4};
     return of_column[x % BLOCK] + of_row[y % BLOCK] + 8.0 * of_column[x % BLOCK] * of_row[y % BLOCK];
@@ -35,12 +36,12 @@ static aur_pixel_strata *create(void) {
 
 static const aur_vector up = {0.0f, 0.0f, 1.0f};
 
-/* Of a pixel's window along one axis: the pixel, but for the two at either rim. */
+/* Of a pixel's window along one axis: the pixel, except for the two at either rim. */
 static double middle_of_window(size_t at) {
     return at < 2 ? 1.5 : at > SIDE - 3 ? SIDE - 2.5 : (double)at;
 }
 
-static void linear_light_is_kept(void **state) {
+static void linear_light_is_preserved(void **state) {
     (void)state;
     aur_pixel_strata *const strata = create();
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
@@ -60,7 +61,7 @@ static double middle_of_near_window(size_t at) {
     return at == 0 ? 0.16 / 1.16 : at == SIDE - 1 ? SIDE - 1 - 0.16 / 1.16 : (double)at;
 }
 
-static void near_pools_keep_linear_light(void **state) {
+static void near_pools_preserve_linear_light(void **state) {
     (void)state;
     aur_pixel_strata *const strata = create();
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i)
@@ -100,7 +101,7 @@ static void surfaces_stay_apart(void **state) {
     free(strata);
 }
 
-/* A plane behind the other one, at the same place of the image. */
+/* A plane behind the other one, at the same position in the image. */
 static void depths_stay_apart(void **state) {
     (void)state;
     aur_pixel_strata *const strata = create();
@@ -117,7 +118,7 @@ static void depths_stay_apart(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_light_is_kept), cmocka_unit_test(near_pools_keep_linear_light),
+        cmocka_unit_test(linear_light_is_preserved), cmocka_unit_test(near_pools_preserve_linear_light),
         cmocka_unit_test(surfaces_stay_apart), cmocka_unit_test(depths_stay_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* What final gathering may be asked for, and integrators of the caller's. */
+/* Valid settings of final gathering, and integrators of the caller. */
 #include "check.h"
 #include "render/scene/scene_text.h"
 
@@ -17,7 +17,7 @@ static aur_result complete(aur_gather_settings options, char message[AUR_ERROR_M
     return result;
 }
 
-/* Defaults that follow from other options, and those that are given. */
+/* Defaults that depend on other options, and given values. */
 static void defaults_follow(void **state) {
     (void)state;
     aur_gather_settings o = INITIAL;
@@ -59,7 +59,7 @@ static aur_gather_settings changed(unsigned change) {
     return o;
 }
 
-/* What is refused, as conditions on the fields. */
+/* Rejected settings, as conditions on the fields. */
 static bool is_refused(const aur_gather_settings *o) {
     const bool merged = o->weights >= AUR_WEIGHTS_OSWA, share = o->share != AUR_SHARE_NONE;
     const bool other_set = strcmp(o->pattern, "sobol") == 0 || o->scramble != NULL;
@@ -84,7 +84,7 @@ static void exclusions_are_those_of_pairs(void **state) {
     assert_true(refused > 0 && refused < 1u << CHANGES);
 }
 
-/* Each message names what excludes what. */
+/* Each message names the conflicting options. */
 static void messages_name_both(void **state) {
     (void)state;
     static const struct {
@@ -119,7 +119,7 @@ static aur_result render(const char *integrator, const aur_gather_integrator *ga
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = integrator,
-                                        .filter = "box", /* a pixel's own samples */
+                                        .filter = "box", /* independent samples per pixel */
                                         .width = 8,
                                         .height = 8,
                                         .samples_per_pixel = 2,
@@ -148,7 +148,7 @@ static const aur_key stray_key[] = {{.name = "stray",
         .size = sizeof(aur_gather_integrator), .row = {.name = "study", .key_count = 1, .keys = (keys_) }    \
     }
 
-/* The same bits as finalgather where nothing else is asked for; its keys, and one of its own. */
+/* Bit-identical to finalgather without further options; its keys, and an additional one. */
 static void caller_has_integrators(void **state) {
     (void)state;
     static const aur_gather_integrator study = STUDY(one_key);
@@ -244,7 +244,7 @@ static void gather_plainly(const void *state, uint32_t lanes, aur_gather_sweep *
             aur_gather_finish(sweep, lane, sums[lane], pattern->count, 1);
 }
 
-/* A method that does what gathering does has its image, to rounding; the directions of both samples are
+/* A method that implements gathering gives its image, to rounding; the directions of both samples are
  * counted. */
 static void caller_gathers(void **state) {
     (void)state;

@@ -1,4 +1,4 @@
-/* Weights of one pattern: optimal ones are the library's, and what is left of a lobe above the horizon. */
+/* Weights of one pattern: optimal ones are the library's, and the part of a lobe above the horizon. */
 #include <aureole/quadrature.h>
 
 #include "check.h"
@@ -23,7 +23,7 @@ static aur_gather_rule rule_of(const char *set, aur_scramble scramble, double ex
     return rule;
 }
 
-/* Every prepared scrambling has the optimal weights of its own directions, and constants are exact. */
+/* Every prepared scrambling has the optimal weights of its directions, and constants are exact. */
 static void optimal_weights(void **state) {
     (void)state;
     for (int net = 0; net < 2; ++net) {
@@ -62,7 +62,7 @@ static void optimal_weights(void **state) {
             aur_gather_rule_release(&rule);
         }
     }
-    /* Directions made at the shading point have none. */
+    /* Directions generated at the shading point have none. */
     aur_gather_rule free_rule = rule_of("sobol", AUR_SCRAMBLE_DIGIT, 20.0, false, 0);
     aur_error error;
     assert_int_equal(aur_gather_rule_optimise(&free_rule, 1.5, 1e-6, &error), AUR_ERROR_UNSUPPORTED);
@@ -90,7 +90,7 @@ static void visible_part(void **state) {
     }
 }
 
-/* Scaled, the samples above the surface carry the mass of what is above it, by every kind of rule. */
+/* With scaling, the samples above the surface carry the mass of the lobe above it, for every kind of rule. */
 static void scaled_weights(void **state) {
     (void)state;
     static const struct {

@@ -1,5 +1,5 @@
 /* GGX lobes of the gather: directions and weights are those of the table, sums are the lobe's mass, materials
- * say which of their lobes are GGX, and images have path tracing's mean whatever the threads. */
+ * report which of their lobes are GGX, and images have path tracing's mean for any threads. */
 #include <aureole-render/render.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,8 +34,8 @@ static double smith(double alpha, double height) {
     return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 / (height * height) - 1.0)) - 1.0);
 }
 
-/* What the material draws by the rule's points are the table's samples, turned to the view's azimuth; and the
- * weights, with what they are divided by taken back, add up to the lobe's mass: floats on both sides. */
+/* The material's samples from the rule's points are the table's samples, rotated to the view's azimuth; and
+ * the weights, multiplied by their divisors, sum to the lobe's mass: floats on both sides. */
 static void test_rule(void **state) {
     (void)state;
     const float alpha = 0.3f;
@@ -80,7 +80,7 @@ static aur_scene *load(const char *text) {
     return scene;
 }
 
-/* Only what is one GGX lobe of one roughness says so. */
+/* Only a single GGX lobe of constant roughness is reported. */
 static void test_materials(void **state) {
     (void)state;
 #define GGX(more_) "<string name='distribution' value='ggx'/>" more_
@@ -149,7 +149,7 @@ static double render(aur_renderer *renderer, const char *integrator, size_t samp
 /* A ball of metal under an even sky, from steep to grazing: the mean is path tracing's but for the error of
  * 64 directions under Fresnel's factor, below .1 %, whether or not the sky is sampled too; the same bits
  * whatever the threads. Without the mass, or with the masking twice, it is 5 % and more off. */
-static void test_pictures(void **state) {
+static void test_images(void **state) {
     (void)state;
     aur_scene *const scene = load(
         "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='30'/>"
@@ -178,7 +178,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rule),
         cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

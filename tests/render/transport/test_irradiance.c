@@ -57,8 +57,8 @@ static void keep_last(void *user, const char *message) {
     snprintf(user, 256, "%s", message);
 }
 
-/* Where nothing is absorbed no path ends but by rounding: they are cut, counted and reported. None is where a
- * furnace absorbs half of what comes. */
+/* Without absorption no path ends except by rounding: they are truncated, counted and reported. None is if a
+ * furnace absorbs half of the light. */
 static void endless_paths_are_reported(void **state) {
     (void)state;
     aur_scene *const white = must_load_body(
@@ -83,7 +83,7 @@ static void endless_paths_are_reported(void **state) {
     aur_scene_destroy(grey);
 }
 
-/* Texels lose no photon and count none twice: their areas are those of the walls, their powers those of the
+/* Texels lose no photon and count none twice: their total area is that of the walls, their power that of the
  * photons, to rounding. */
 static void texels_hold_all_the_power(void **state) {
     (void)state;
@@ -119,11 +119,11 @@ static double estimate_directly(const aur_photon_map *photons, aur_vector positi
     return power / (AUR_PI * (double)radius * (double)radius);
 }
 
-/* The radiance of a look-up at a grid of places on the wall z = -1, seen from inside, against the direct
- * estimate there and against the truth 1/2. A texel has about 32 photons and a disc of radius 0.1 about 130
- * of 100000, so the two scatter by 18 and 9 % at most; the means over 64 places by an eighth of that, of
+/* The radiance of a look-up at a grid of points on the wall z = -1, seen from inside, against the direct
+ * estimate there and against the exact 1/2. A texel has about 32 photons and a disc of radius 0.1 about 130
+ * of 100000, so the two scatter by 18 and 9 % at most; the means over 64 points by an eighth of that, of
  * which 5 are allowed. */
-static void look_ups_agree_with_density_estimates(void **state) {
+static void lookups_agree_with_density_estimates(void **state) {
     (void)state;
     aur_scene *const scene = load_furnace();
     aur_irradiance_map *const map = make_map(scene, 100000, 0);
@@ -167,7 +167,7 @@ static void unlit_sides_stay_dark(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Every point of a triangle, and no other place, has a texel; the parts have equal areas. */
+/* Every point of a triangle, and no other, has a texel; the parts have equal areas. */
 static void triangle_texels_cover_it_evenly(void **state) {
     (void)state;
     for (uint32_t side = 1; side <= 9; side += 4) {
@@ -228,14 +228,10 @@ static void photons_come_from_any_set(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(photons_bring_all_the_power),
-        cmocka_unit_test(endless_paths_are_reported),
-        cmocka_unit_test(texels_hold_all_the_power),
-        cmocka_unit_test(look_ups_agree_with_density_estimates),
-        cmocka_unit_test(unlit_sides_stay_dark),
-        cmocka_unit_test(triangle_texels_cover_it_evenly),
-        cmocka_unit_test(photons_come_from_any_set),
-        cmocka_unit_test(does_not_depend_on_threads),
+        cmocka_unit_test(photons_bring_all_the_power), cmocka_unit_test(endless_paths_are_reported),
+        cmocka_unit_test(texels_hold_all_the_power),   cmocka_unit_test(lookups_agree_with_density_estimates),
+        cmocka_unit_test(unlit_sides_stay_dark),       cmocka_unit_test(triangle_texels_cover_it_evenly),
+        cmocka_unit_test(photons_come_from_any_set),   cmocka_unit_test(does_not_depend_on_threads),
     };
     return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
 }

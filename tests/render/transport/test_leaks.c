@@ -1,12 +1,13 @@
-/* Light that the irradiance map puts where no photon came: none through a wall, and along a surface on which
- * a wall stands at most one texel far. */
+/* Light leaks of the irradiance map: none through a wall, and along a surface on which a wall stands at most
+ * one texel far. */
 #include "render/scene/scene_text.h"
 
 #include "points/base/random.h"
 #include "render/photons/irradiance.h"
 
-/* A closed room cut in two by a wall without thickness at x = WALL_AT, where no texel ends but by chance; its
- * floor, ceiling and sides are single faces that reach under the wall. The light is on the far side of it. */
+/* A closed room divided by a wall without thickness at x = WALL_AT, which texel borders do not match; its
+ * floor, ceiling and sides are single faces that continue under the wall. The light is on the far side of it.
+ */
 #define WALL_AT 0.13
 #define GREY "<bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf></bsdf>"
 #define ROOM                                                                                                 \
@@ -19,7 +20,7 @@
 
 enum { CUBE, WALL };
 
-/* Mean irradiance of what is seen from the middle of a half. */
+/* Mean irradiance visible from the middle of a half. */
 typedef struct survey {
     double dark, lit;
     size_t leaks; /* directions in which the dark half shows light */
@@ -75,8 +76,8 @@ static survey survey_of(const aur_scene *scene, size_t photons) {
     return found;
 }
 
-/* What leaks goes as the texels' width, one over the root of the photons: in theory a fourth for 16 times the
- * photons. The bounds are half as much again as what was measured. */
+/* Leaks are proportional to the texels' width, one over the root of the number of photons: in theory a fourth
+ * for 16 times the photons. The bounds are 1.5 times the measurements. */
 static void leaks_end_after_a_texel_and_shrink(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);

@@ -1,5 +1,5 @@
-/* Weights of merged samples as the gather loop looks them up: tables against solves, constants exactly,
- * subsets against the whole. */
+/* Weights of merged samples as used by the gather loop: tables against solves, constants exactly, subsets
+ * against the whole. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -227,7 +227,7 @@ static void balance_is_the_library_s(void **state) {
     }
 }
 
-/* The density that a light's own sampling is weighed against is that of the directions. */
+/* The pdf that weights light sampling is that of the directions. */
 static void densities(void **state) {
     (void)state;
     aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 4);
@@ -260,8 +260,8 @@ static void refuses(void **state) {
     assert_null(pair);
 }
 
-/* A system that cannot be solved is said, and no weight is a number. Here the solver refuses the room for the
- * result, which is too small because the rule forgets its second pattern. */
+/* A system that cannot be solved is reported, and no weight is a number. Here the solver rejects the result's
+ * size, which is too small because the rule omits its second pattern. */
 static void unsolved_systems_are_said(void **state) {
     (void)state;
     const aur_merged_rule_options options = options_of(AUR_WEIGHTS_SOLVE, 20.0, true, 1);

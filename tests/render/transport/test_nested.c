@@ -96,7 +96,7 @@ static void heights_lie_in_the_middle_of_steps(void **state) {
     }
 }
 
-/* Blocks of pixels have each number once, and those of one 2 x 2 block differ in the highest bits alone. */
+/* Blocks of pixels contain each number once, and those of one 2 x 2 block differ only in the highest bits. */
 static void pixels_have_their_numbers(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 20; ++seed) {
@@ -116,7 +116,7 @@ static void pixels_have_their_numbers(void **state) {
 
 /* Pixels 4 apart that differ in eighths alone would be wrong alike, as would pixels 8 apart of one number.
  * They are so by chance, one in 16 and one in 64; five standard deviations of such a count are left. */
-static void blocks_have_numbers_of_their_own(void **state) {
+static void blocks_have_distinct_numbers(void **state) {
     (void)state;
     enum { SEEDS = 6400 };
     double alike = 0.0, same = 0.0;
@@ -131,6 +131,6 @@ static void blocks_have_numbers_of_their_own(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_make_finer_patterns), cmocka_unit_test(heights_lie_in_the_middle_of_steps),
-        cmocka_unit_test(pixels_have_their_numbers), cmocka_unit_test(blocks_have_numbers_of_their_own)};
+        cmocka_unit_test(pixels_have_their_numbers), cmocka_unit_test(blocks_have_distinct_numbers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The helpers of packets: which pixels sixteen lanes are, sets of lanes, and what is called coherent. */
+/* The helpers of packets: pixels of sixteen lanes, lane masks, and the coherence criterion. */
 #include "check.h"
 
 #include "points/base/random.h"
@@ -56,8 +56,8 @@ static void blocks_part_the_tile(void **state) {
         assert_int_equal(pixels[i], 1);
 }
 
-/* What neighbours in a row have in one half of the blocks, neighbours in a column have in the other: the
- * share is .5 within five deviations of as many throws of a coin, sqrt(1600) / 2 = 20 each. */
+/* Horizontal neighbours in one half of the blocks correspond to vertical neighbours in the other: the share
+ * is .5 within five deviations of as many coin tosses, sqrt(1600) / 2 = 20 each. */
 static void rows_and_columns_change_places_in_half_of_the_blocks(void **state) {
     (void)state;
     size_t columns = 0;
@@ -89,7 +89,7 @@ static void marks_find_their_group(void **state) {
     }
 }
 
-static void packets_keep_rays_and_lanes(void **state) {
+static void packets_preserve_rays_and_lanes(void **state) {
     (void)state;
     aur_packet packet;
     aur_packet_clear(&packet);
@@ -124,7 +124,7 @@ int main(void) {
         cmocka_unit_test(blocks_part_the_tile),
         cmocka_unit_test(rows_and_columns_change_places_in_half_of_the_blocks),
         cmocka_unit_test(marks_find_their_group),
-        cmocka_unit_test(packets_keep_rays_and_lanes),
+        cmocka_unit_test(packets_preserve_rays_and_lanes),
         cmocka_unit_test(coherent_is_one_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

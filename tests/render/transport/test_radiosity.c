@@ -68,7 +68,7 @@ static void quasi_random_points_are_better(void **state) {
             aur_radiosity_destroy(radiosity);
         }
     }
-    /* 0.00098 and 0.00163 by an independent prototype: mean squares of 144 numbers of which a quarter is
+    /* 0.00098 and 0.00163 by an independent prototype: mean squares of 144 numbers, a quarter of them
      * independent, good to a quarter; twice that is allowed. */
     assert_relative(sqrt(squares[0] / 12.0 / 12.0 / 12.0), 0.00098, 0.3);
     assert_relative(sqrt(squares[1] / 12.0 / 12.0 / 12.0), 0.00163, 0.3);
@@ -143,7 +143,7 @@ static void threads_change_nothing(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Every flight brings half of the flight before, wherever it goes: also to the back of a plate. */
+/* Every flight carries half the power of the previous one, wherever it goes: also to the back of a plate. */
 static void two_sided_plates_receive_on_both_sides(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(
@@ -158,7 +158,7 @@ static void two_sided_plates_receive_on_both_sides(void **state) {
     assert_int_equal(d.patches, 16);
     assert_int_equal(d.lost + d.behind, 0);
     assert_relative(d.tail, ldexp(1.0, -7), 1e-9);
-    /* By symmetry the plate's front receives what its back does, and the walls the rest. */
+    /* By symmetry the plate's front receives as much as its back, and the walls the rest. */
     aur_radiosity_triangle_result results[MOST_TRIANGLES];
     get_results(radiosity, results);
     double walls = 0.0, front = 0.0;
@@ -195,7 +195,7 @@ static void textures_act_as_their_values(void **state) {
     aur_radiosity *const c = must_trace(varying, &options, 100000);
     aur_radiosity_triangle_result results[MOST_TRIANGLES];
     assert_int_equal(get_results(c, results), 12);
-    /* The lid's own mean albedo is found by points. */
+    /* The lid's mean albedo is found by points. */
     for (size_t i = 0; i < 12; ++i)
         assert_near(results[i].radiance[0], 0.5 - ldexp(1.0, -9), i < 10 ? 0.01 : 0.02);
     aur_radiosity_destroy(c);

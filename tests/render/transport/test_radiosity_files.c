@@ -1,4 +1,4 @@
-/* Radiosity kept in files. */
+/* Radiosity solutions stored in files. */
 #include "radiosity_room.h"
 
 #include "render/radiosity/solution.h"
@@ -71,7 +71,7 @@ static void damaged_files_are_refused(void **state) {
     aur_scene_destroy(other);
 }
 
-/* A PLY file that our own reader takes: the same triangles. */
+/* A PLY file that our reader accepts: the same triangles. */
 static void meshes_are_written(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
@@ -86,7 +86,7 @@ static void meshes_are_written(void **state) {
     assert_int_equal(b.triangles, 12);
     assert_memory_equal(a.lower, b.lower, sizeof a.lower);
     assert_memory_equal(a.upper, b.upper, sizeof a.upper);
-    /* Radiance 1/2 at one stop is full white; each vertex tells the radiance of its triangle. */
+    /* Radiance 1/2 at one stop is full white; each vertex has the radiance of its triangle. */
     char data[4096];
     FILE *const file = fopen(path_of("room.ply"), "rb");
     const size_t size = fread(data, 1, sizeof data - 1, file);

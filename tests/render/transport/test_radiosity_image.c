@@ -98,7 +98,7 @@ static void directions_are_uniform_in_the_solid_angle(void **state) {
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT };
 
-/* The filter of what is rendered; NULL: the scene's. */
+/* The filter of the render; NULL: the scene's. */
 static const char *drawn_by;
 
 static aur_image *render(const aur_scene *scene, const char *integrator, size_t samples, size_t threads,
@@ -154,12 +154,12 @@ static void components_are_what_they_should_be(void **state) {
     expect_mean(scene, "radiosity:bounces=29,component=indirect,pattern=sobol,walk=paper", 4, 0.125);
     expect_mean(scene, "radiosity:bounces=29", 4, 0.5);
     expect_mean(scene, "radiosity:bounces=29,oversampling=sampler,share_neighbours=true", 4, 0.5);
-    /* Adaptive pixels stop when their mean looks steady, which favours none here: all are 1/2. */
+    /* Adaptive pixels stop when their mean seems stable, without bias here: all are 1/2. */
     expect_mean(scene, "radiosity:bounces=29,oversampling=adaptive", 32, 0.5);
     aur_scene_destroy(scene);
 }
 
-/* The lid is a mirror: what is seen in it is 1/2 too. */
+/* The lid is a mirror: its reflection is 1/2 too. */
 static void mirrors_show_the_same(void **state) {
     (void)state;
     aur_scene *const scene =
@@ -218,8 +218,8 @@ static void compare_with_all_lights(const aur_scene *scene, const aur_image *all
     aur_image_destroy(permuted);
 }
 
-/* Five samples are a round that takes both triangles of the lamp once, and the first one of another round,
- * which takes what falls to it. */
+/* Five samples are a round that uses both triangles of the emitter once, and the first sample of another
+ * round, which uses its random choice. */
 static void permuting_lights_is_unbiased(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(
@@ -270,8 +270,8 @@ static void adaptive_pixels_spare_samples(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Neither threads nor crops change a pixel, with neighbours and without. */
-static void pictures_depend_on_nothing_else(void **state) {
+/* Threads and crops change no pixel, with neighbours and without. */
+static void images_depend_on_nothing_else(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
     static const char *const integrators[] = {"radiosity:paths=2000,gather_samples=5",
@@ -313,7 +313,7 @@ int main(void) {
         cmocka_unit_test(more_samples_see_more_of_the_lights),
         cmocka_unit_test(sharing_smooths_the_indirect_light),
         cmocka_unit_test(adaptive_pixels_spare_samples),
-        cmocka_unit_test(pictures_depend_on_nothing_else),
+        cmocka_unit_test(images_depend_on_nothing_else),
     };
     return cmocka_run_group_tests_name("radiosity pictures", tests, enter_folder, leave_folder);
 }

@@ -1,4 +1,4 @@
-/* Radiosity where memory runs out, at every place in turn. */
+/* Radiosity with out-of-memory failures of every allocation in turn. */
 #include "failing_memory.h"
 #include "radiosity_room.h"
 
@@ -14,7 +14,7 @@ static aur_radiosity_options scrambled(void) {
     return options;
 }
 
-/* No solution is made with less than it should tell. */
+/* No solution is created with less than complete statistics. */
 static void making_fails_as_a_whole(void **state) {
     (void)state;
     aur_scene *const scene = must_load_uncut(WITH_COINCIDENCE);
@@ -36,7 +36,7 @@ static void making_fails_as_a_whole(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What failed once can be asked for again, and becomes what it would have been. */
+/* A failed request can be repeated, and gives the same result as without a failure. */
 static void tracing_can_be_tried_again(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);

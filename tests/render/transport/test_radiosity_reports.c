@@ -1,4 +1,4 @@
-/* What radiosity refuses, and what it reports. */
+/* Rejected input and reports of radiosity. */
 #include "points/base/random.h"
 #include "radiosity_room.h"
 #include "render/radiosity/scene.h"
@@ -82,7 +82,7 @@ static void options_out_of_range_are_refused(void **state) {
         assert_int_equal(describe(radiosity).paths, 0);
         aur_radiosity_destroy(radiosity);
     }
-    /* A set whose points depend on how many there are cannot go on. */
+    /* A set whose points depend on their number cannot be continued. */
     options = options_of(AUR_RADIOSITY_COSINE, 6);
     options.sequence = "hammersley";
     aur_radiosity *const radiosity = must_trace(scene, &options, 100);
@@ -93,8 +93,8 @@ static void options_out_of_range_are_refused(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Structs that tell no size are refused; larger ones of a later version are served as far as they are known.
- */
+/* Structs with an unset size are rejected; larger ones of a later version are filled as far as they are
+ * known. */
 static void structs_may_grow(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
@@ -139,7 +139,7 @@ static void structs_may_grow(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* The count of the message is that of the description, of all paths, and so is its share in percent. */
+/* The message's count equals that of the description, over all paths, and so does its percentage. */
 static void expect_share(const char *message, uint64_t count, uint64_t paths) {
     char said[96];
     snprintf(said, sizeof said, " %zu of %zu paths (%.3g %%)", (size_t)count, (size_t)paths,
@@ -200,7 +200,7 @@ static void bright_albedos_are_reported(void **state) {
     ROOM "<shape type='cube'><transform name='to_world'><scale value='0.4'/><translate z='" height "'/>"     \
          "</transform>" WALL_MATERIAL "</shape>"
 
-/* A box that stands exactly on the floor loses what its underside emits; one just above it nothing. */
+/* A box that stands exactly on the floor loses the emission of its underside; one just above it nothing. */
 static void coincident_surfaces_are_reported(void **state) {
     (void)state;
     messages kept = {0};
@@ -234,7 +234,7 @@ static void write_triangle(FILE *file, double x, double y, double z, double widt
             z, x, y + height, z);
 }
 
-/* Triangles at random places in planes of their own, each given twice: every pair is found, and no other. */
+/* Triangles at random positions in separate planes, each given twice: every pair is found, and no other. */
 static void every_coincidence_is_found(void **state) {
     (void)state;
     enum { COUNT = 1000 };
@@ -286,8 +286,8 @@ static void coincidences_take_few_comparisons(void **state) {
     aur_scene_destroy(copies);
 }
 
-/* A light 10^18 times darker than another vanishes in the sum of their powers: it is left out, and the other
- * one's light is what it would be alone. */
+/* A light 10^18 times darker than another vanishes in the sum of their powers: it is omitted, and the other
+ * one's light is the same as alone. */
 static void vanishing_lights_are_left_out(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(
@@ -307,7 +307,7 @@ static void vanishing_lights_are_left_out(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* What the sums cannot hold is counted, and what is no number makes no solution. */
+/* Overflows of sums are counted, and a NaN creates no solution. */
 static void powers_beyond_the_sums_are_reported(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);

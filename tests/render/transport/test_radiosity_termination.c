@@ -1,8 +1,8 @@
-/* The error that radiosity tells, and when it ends. */
+/* The error estimate of radiosity, and its termination. */
 #include "radiosity_room.h"
 
-/* The error bar tells how far the solution is from the truth: root mean squares over 16 solutions. Their own
- * scatter is about a tenth; three such are allowed. */
+/* The error bar estimates the distance of the solution from the exact one: root mean squares over 16
+ * solutions. Their scatter is about a tenth; three such are allowed. */
 static void error_bar_is_honest(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);

@@ -1,5 +1,5 @@
-/* A vertex of a light path: the two weights of a light add up to 1, roulette keeps the mean, and the lobes
- * that a photon map answers for bring together with the others what all lobes bring. */
+/* A vertex of a light path: the two MIS weights of a light sum to 1, roulette preserves the mean, and the
+ * lobes in the photon map together with the others give the light of all lobes. */
 #include "render/material/materials.h"
 
 #include "render/vertex/vertex.h"
@@ -23,7 +23,7 @@ static void weights_of_both_strategies_add_up_to_one(void **state) {
 }
 
 /* Over evenly spaced numbers the mean of beta changes by the last of them at most. */
-static void roulette_keeps_the_mean(void **state) {
+static void roulette_preserves_the_mean(void **state) {
     (void)state;
     enum { NUMBERS = 1 << 16 };
     for (float size = 0.05f; size < 3.0f; size *= 1.7f) {
@@ -74,7 +74,7 @@ static aur_surface surface_of(const aur_bsdf *bsdf) {
                          .emitter = AUR_NO_EMITTER};
 }
 
-/* Of every material. A deviate beyond 6 has a chance of 2e-9 each; the draws are fixed. */
+/* For every material. A deviate beyond 6 has a probability of 2e-9 each; the samples are fixed. */
 static void lobes_with_and_without_a_map_are_all(void **state) {
     (void)state;
     enum { DRAWS = 20000 };
@@ -132,7 +132,7 @@ static void directions_have_the_density_of_evaluation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weights_of_both_strategies_add_up_to_one),
-        cmocka_unit_test(roulette_keeps_the_mean),
+        cmocka_unit_test(roulette_preserves_the_mean),
         cmocka_unit_test(lobes_with_and_without_a_map_are_all),
         cmocka_unit_test(directions_have_the_density_of_evaluation),
     };

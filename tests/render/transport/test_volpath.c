@@ -1,5 +1,5 @@
-/* Light in media, against closed forms: Beer and Lambert's law, furnaces, single scattering from a point of
- * light, and what a half-space reflects (Chandrasekhar's H). */
+/* Light in media, against closed forms: Beer-Lambert law, furnaces, single scattering from a point light, and
+ * the reflection of a half-space (Chandrasekhar's H). */
 #include "render/scene/scene_text.h"
 #include "render/scene/vol_file.h"
 
@@ -59,7 +59,7 @@ static double mean_of(const aur_scene *scene, const char *integrator, size_t sam
     return mean;
 }
 
-/* What chance lets pass once in ten thousand comparisons. */
+/* Exceeded by noise once in ten thousand comparisons. */
 static void assert_mean(double mean, double deviation, double expected, const char *what) {
     const double most = aur_student_quantile(SEEDS - 1, 1.0 - 0.00005);
     if (!(fabs(mean - expected) <= most * deviation + 1e-6 * expected))
@@ -74,8 +74,8 @@ static void assert_mean(double mean, double deviation, double expected, const ch
     "<sensor type='orthographic'><transform name='to_world'><scale value='0.1'/><lookat origin='0, 0, 4' "   \
     "target='0, 0, 0' up='0, 1, 0'/></transform></sensor>"
 
-/* What only absorbs takes exp(-sigma d) away without noise, seen through it or by light that falls through:
- * a cube two wide before the sky, and one over a floor under a sun. */
+/* Pure absorption attenuates by exp(-sigma d) without noise, for camera rays and for light through it: a cube
+ * two wide in front of the sky, and one over a floor under a sun. */
 static void absorbs_by_beer_and_lambert(void **state) {
     (void)state;
     static const char medium[] = "<shape type='cube'><bsdf type='null'/><medium name='interior' "
@@ -167,8 +167,8 @@ static void furnaces_are_right_in_the_mean(void **state) {
     }
 }
 
-/* A point of light of intensity I beside a ray: the radiance that is scattered once on the ray's way from 0
- * to `length` is the integral of albedo sigma p(cos) I exp(-sigma (t + r)) / r^2, here by Simpson's rule. */
+/* A point light of intensity I near a ray: the single-scattered radiance along the ray from 0 to `length` is
+ * the integral of albedo sigma p(cos) I exp(-sigma (t + r)) / r^2, here by Simpson's rule. */
 static double single_scattering(double sigma, double albedo, double g, double along, double beside,
                                 double length) {
     enum { STEPS = 20000 };
@@ -185,7 +185,7 @@ static double single_scattering(double sigma, double albedo, double g, double al
     return sum * length / STEPS / 3.0;
 }
 
-/* The camera looks along a narrow beam at a black wall 5 away; the light is 1.5 beside the beam, 2 along. */
+/* The camera looks along a narrow beam at a black wall 5 away; the light is 1.5 off the beam, 2 along. */
 static void scatters_once_as_the_integral_says(void **state) {
     (void)state;
     static const double g = 0.4, albedo = 0.8, sigmas[] = {0.2, 0.3, 0.6};
@@ -277,8 +277,8 @@ static void write_ramp(float second, float third) {
     "name='to_world'><scale value='2'/><translate x='-1' y='-1' z='-1'/></transform></volume><float "        \
     "name='scale' value='0.3'/>" more "</medium></shape>"
 
-/* Along x, the cube of width 2 has the mean of its voxels, 3.5, as interpolation with clamped ends keeps it;
- * what only absorbs is estimated by ratio tracking. */
+/* Along x, the cube of width 2 has the mean of its voxels, 3.5, preserved by interpolation with clamped ends;
+ * pure absorption is estimated by ratio tracking. */
 static void grids_absorb_by_their_integral(void **state) {
     (void)state;
     write_ramp(0.5f, 0.2f);
@@ -320,8 +320,8 @@ static void grids_are_furnaces(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* A grid whose voxels are all alike is a homogeneous medium, tracked where that is known: a lamp in the sky
- * over a floor, seen through it and lit through it. */
+/* A grid of equal voxels is a homogeneous medium, tracked as such: a light source in the sky over a floor,
+ * seen and lit through it. */
 static void even_grids_are_homogeneous(void **state) {
     (void)state;
     static const float values[8] = {1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f};
@@ -355,7 +355,7 @@ static void even_grids_are_homogeneous(void **state) {
     aur_scene_destroy(even);
 }
 
-/* Without media, volpath has the light of path, through masks too, which it looks through for lights. */
+/* Without media, volpath has the light of path, through masks too, which its shadow rays pass. */
 static void without_media_it_is_path(void **state) {
     (void)state;
     aur_scene *const scene =
