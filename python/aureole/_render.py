@@ -63,7 +63,8 @@ def _library() -> Bridge:
     raise ImportError(
         "rendering, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found. "
         "Install the package aureole-render (pip install ./python/render in the source tree, or the wheel aureole_render-*.whl), "
-        "install the tree (cmake --install build/release), or set AUREOLE_RENDER_LIBRARY to build/release/libaureole-lab.so. Tried: "
+        "install the tree (cmake --install build/release; in another prefix than /usr set LD_LIBRARY_PATH=PREFIX/lib), "
+        "or set AUREOLE_RENDER_LIBRARY to build/release/libaureole-lab.so. Tried: "
         + "; ".join(tried)
     )
 

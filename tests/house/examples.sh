@@ -44,6 +44,8 @@ awk '$1 == "random" { exit !($8 > 0 && ($6 - 180) < 4 * $8 && ($6 - 180) > -4 * 
 awk '{ off = $2 - 0.75 } off > 0.004 || off < -0.004 { exit 1 }' occlusion.txt || fail "$(cat occlusion.txt)"
 # The radiance is smooth: optimal weights take away a third of the error and more.
 awk '!($4 > 0 && $4 < 0.67 * $2) { exit 1 }' gather.txt || fail "$(cat gather.txt)"
+# A grey sphere below an even sky has the radiance of its reflectance, within three errors.
+awk '{ off = $2 / 0.5 - 1; exit !($4 > 0 && $4 <= 0.02 && off < 3 * $4 && off > -3 * $4) }' image.txt || fail "$(cat image.txt)"
 # 40 equal cells of the cap of 110 degrees have a radius of 15 degrees; at the rim covering is at most twice as much.
 awk '$1 == "covering" { good = $2 > 15 && $2 < 30 && $4 > 20 && $4 < 30 } END { exit !(good && NR == 41) }' views.txt || fail "$(tail -1 views.txt)"
 # 65536 equal cells have a radius of .45 degrees.

@@ -75,7 +75,7 @@ for domain in square cube disk rotations; do
   try "says that the points are on the sphere, not on the $domain" good --domain $domain
   for method in voronoi osw equal ratio; do
     "$aureole" points sobol -n 16 --domain $domain ${dim[$domain]:-} -o $domain.csv
-    try "weights on the domain '$domain' are exact ones" $domain --domain $domain --method $method
+    try "this method needs directions: on the domain '$domain' use --method exact" $domain --domain $domain --method $method
   done
   try "caps and lobes are for directions" $domain --domain $domain --cap 20
   try "(functions|polynomials) of degree 7" $domain --domain $domain --degree 7

@@ -287,11 +287,11 @@ static aur_result compute(weights_job *task, aur_error *error) {
     if (status == AUR_OK && result->domain == AUR_DOMAIN_AXES && !exact &&
         task->arguments->method != CLI_METHOD_VORONOI)
         status = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                          "weights of axes are exact ones or areas of cells: give --method exact or voronoi");
+                          "weights of axes are exact or Voronoi: use --method exact or voronoi");
     const bool directions = cli_has_directions(result->domain);
     if (status == AUR_OK && !directions && !exact)
         status = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                          "weights on the domain '%s' are exact ones: give --method exact",
+                          "this method needs directions: on the domain '%s' use --method exact",
                           aur_domain_name(result->domain));
     if (status == AUR_OK && !directions && task->arguments->plot != NULL)
         status = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--plot: draws directions");
