@@ -15,8 +15,9 @@ enum { AUR_NOTES_CAPACITY = 512 };
 
 struct aur_image {
     size_t width, height, channel_count;
-    float *data;        /* data[(y * width + x) * channel_count + c]; the top row first */
-    bool data_is_owned; /* false: the caller's, see aur_image_wrap */
+    float *data;          /* data[(y * width + x) * channel_count + c]; the top row first */
+    unsigned char *codes; /* of 8 bits, in the same order, instead of `data`; only of images that are coded */
+    bool data_is_owned;   /* false: the caller's, see aur_image_wrap */
     char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY];
     bool chosen; /* one or three channels chosen by the caller: they are the colour, whatever their names */
     char notes[AUR_NOTES_CAPACITY];
@@ -81,6 +82,19 @@ aur_result aur_image_check_size(size_t width, size_t height, size_t channel_coun
 /* FORMAT if a file of this length cannot contain that many pixels: decoders allocate before they read. */
 aur_result aur_image_check_claim(const aur_image_source *source, const char *format, size_t pixel_count,
                                  size_t pixels_a_byte, aur_error *error);
+
+/* Images of 8 bits are coded until somebody needs floats: a quarter of the memory, and no value is infinite,
+ * NaN or negative. Errors are those of the public counterparts. */
+aur_result aur_image_create_coded(size_t width, size_t height, size_t channel_count, aur_image **image,
+                                  aur_error *error);
+/* What the 256 codes of a channel stand for: sRGB, or alpha in equal steps. */
+void aur_image_code_values(const aur_image *image, size_t channel, float values[256]);
+/* Gives a coded image its floats; others stay as they are. MEMORY. */
+aur_result aur_image_expand(aur_image *image, aur_error *error);
+/* aur_image_read and aur_image_read_memory, whose image may be coded. */
+aur_result aur_image_read_coded(const char *path, aur_image **image, aur_error *error);
+aur_result aur_image_read_memory_coded(const char *name, size_t size, const void *data, aur_image **image,
+                                       aur_error *error);
 
 /* Does the source begin with these bytes? */
 bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);

@@ -19,9 +19,11 @@ static bool size_is_allowed(size_t width, size_t height, size_t channel_count) {
     return channel_count <= AUR_IMAGE_VALUES_MAX / (width * height);
 }
 
+typedef enum storage { FLOATS, CODES } storage;
+
 /* `data` NULL: allocated by the image and zeroed. */
-static aur_result create(size_t width, size_t height, size_t channel_count, float *data, aur_image **image,
-                         aur_error *error) {
+static aur_result create(size_t width, size_t height, size_t channel_count, float *data, storage own,
+                         aur_image **image, aur_error *error) {
     *image = NULL;
     if (!size_is_allowed(width, height, channel_count))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -34,9 +36,14 @@ static aur_result create(size_t width, size_t height, size_t channel_count, floa
     created->height = height;
     created->channel_count = channel_count;
     created->data_is_owned = data == NULL;
-    created->data = data != NULL ? data : calloc(width * height * channel_count, sizeof *created->data);
+    const size_t count = width * height * channel_count;
+    created->data = data;
+    if (own == CODES)
+        created->codes = calloc(count, 1);
+    else if (data == NULL)
+        created->data = calloc(count, sizeof *created->data);
     created->channel_names = calloc(channel_count, sizeof *created->channel_names);
-    if (created->data == NULL || created->channel_names == NULL) {
+    if ((created->data == NULL && created->codes == NULL) || created->channel_names == NULL) {
         aur_image_destroy(created);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu x %zu pixels with %zu channels",
                         width, height, channel_count);
@@ -49,12 +56,44 @@ static aur_result create(size_t width, size_t height, size_t channel_count, floa
 
 aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
                             aur_error *error) {
-    return create(width, height, channel_count, NULL, image, error);
+    return create(width, height, channel_count, NULL, FLOATS, image, error);
+}
+
+aur_result aur_image_create_coded(size_t width, size_t height, size_t channel_count, aur_image **image,
+                                  aur_error *error) {
+    return create(width, height, channel_count, NULL, CODES, image, error);
+}
+
+void aur_image_code_values(const aur_image *image, size_t channel, float values[256]) {
+    const bool alpha = image->channel_count % 2 == 0 && channel + 1 == image->channel_count;
+    for (size_t i = 0; i < 256; ++i)
+        values[i] = alpha ? (float)i / 255.0f : (float)aur_srgb_decode((double)i / 255.0);
+}
+
+/* Codes are moved to the last quarter of the memory: code i is read before float i overwrites it. */
+aur_result aur_image_expand(aur_image *image, aur_error *error) {
+    if (image->codes == NULL)
+        return AUR_OK;
+    const size_t channels = image->channel_count, count = image->width * image->height * channels;
+    float *const data = realloc(image->codes, count * sizeof *data);
+    if (data == NULL)
+        return aur_fail_memory(error);
+    unsigned char *const codes = (unsigned char *)data + 3 * count;
+    memmove(codes, data, count);
+    float color[256], last[256];
+    aur_image_code_values(image, 0, color);
+    aur_image_code_values(image, channels - 1, last);
+    for (size_t i = 0; i < count; i += channels)
+        for (size_t c = 0; c < channels; ++c)
+            data[i + c] = (c + 1 == channels ? last : color)[codes[i + c]];
+    image->codes = NULL;
+    image->data = data;
+    return AUR_OK;
 }
 
 aur_result aur_image_wrap(size_t width, size_t height, size_t channel_count, float *data, aur_image **image,
                           aur_error *error) {
-    return create(width, height, channel_count, data, image, error);
+    return create(width, height, channel_count, data, FLOATS, image, error);
 }
 
 void aur_image_destroy(aur_image *image) {
@@ -62,6 +101,7 @@ void aur_image_destroy(aur_image *image) {
         return;
     if (image->data_is_owned)
         free(image->data);
+    free(image->codes);
     free(image->channel_names);
     free(image);
 }

@@ -36,7 +36,7 @@ static aur_result create_decoded(const char *format, const size_t size[3], const
         if (decoded[i] < 0 || (size_t)decoded[i] != size[i])
             return aur_fail(error, AUR_ERROR_FORMAT, "broken %s: its header disagrees with its pixels",
                             format);
-    return aur_image_create(size[0], size[1], size[2], image, error);
+    return aur_image_create_coded(size[0], size[1], size[2], image, error);
 }
 
 static aur_result read_ldr(const aur_image_source *source, const char *format, size_t pixels_a_byte,
@@ -52,15 +52,8 @@ static aur_result read_ldr(const aur_image_source *source, const char *format, s
         return fail_stb(format, error);
     decoded[2] = (int)size[2];
     result = create_decoded(format, size, decoded, image, error);
-    if (result == AUR_OK) {
-        float table[256];
-        for (size_t i = 0; i < 256; ++i)
-            table[i] = (float)aur_srgb_decode((double)i / 255.0);
-        const size_t alpha = size[2] == 2 || size[2] == 4 ? size[2] - 1 : SIZE_MAX;
-        const size_t count = size[0] * size[1] * size[2];
-        for (size_t i = 0; i < count; ++i)
-            (*image)->data[i] = i % size[2] == alpha ? (float)values[i] / 255.0f : table[values[i]];
-    }
+    if (result == AUR_OK)
+        memcpy((*image)->codes, values, size[0] * size[1] * size[2]);
     stbi_image_free(values);
     return result;
 }

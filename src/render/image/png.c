@@ -34,7 +34,7 @@ static void ignore_warning(png_structp png, png_const_charp message) {
 }
 
 /* Values of 16 bits, the high byte first, are stored in the second half of the image's memory: value i is
- * read before float i overwrites it. An 8-bit value v is 257 v in 16 bits, so the conversion is lossless. */
+ * read before float i overwrites it. */
 static aur_result decode_values(const aur_image *image, aur_error *error) {
     float *const table = malloc(65536 * sizeof *table);
     if (table == NULL)
@@ -72,7 +72,7 @@ static void add_notes(png_structp png, png_infop info, aur_image *image) {
                        "its chromaticities are not those of Rec. 709: colours are read as if they were");
 }
 
-/* Converts any pixel format to 16 bits of grey or R, G, B, with alpha if present. */
+/* Converts any pixel format to 8 or 16 bits of grey or R, G, B, with alpha if present. */
 static aur_result read_values(png_structp png, png_infop info, const aur_image_source *source,
                               png_reader *reader, aur_error *error) {
     /* One byte of deflate is at most 1032 bytes: 8 pixels each. */
@@ -80,26 +80,29 @@ static aur_result read_values(png_structp png, png_infop info, const aur_image_s
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_read_fn(png, reader, take_bytes);
     png_read_info(png, info);
-    png_set_expand_16(png);
+    png_set_expand(png);
+    const bool coded = png_get_bit_depth(png, info) <= 8;
     const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     const size_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    const size_t channel_count = png_get_channels(png, info), row = 2 * width * channel_count;
+    const size_t channel_count = png_get_channels(png, info), row = (coded ? 1 : 2) * width * channel_count;
     aur_result result = aur_image_check_size(width, height, channel_count, error);
     if (result == AUR_OK)
         result = aur_image_check_claim(source, "PNG", width * height, pixels_a_byte, error);
     if (result != AUR_OK)
         return result;
-    result = aur_image_create(width, height, channel_count, reader->image, error);
+    result = coded ? aur_image_create_coded(width, height, channel_count, reader->image, error)
+                   : aur_image_create(width, height, channel_count, reader->image, error);
     if (result != AUR_OK)
         return result;
-    unsigned char *const values = (unsigned char *)(*reader->image)->data + row * height;
+    unsigned char *const values =
+        coded ? (*reader->image)->codes : (unsigned char *)(*reader->image)->data + row * height;
     for (int pass = 0; pass < passes; ++pass)
         for (size_t y = 0; y < height; ++y)
             png_read_row(png, values + y * row, NULL);
     png_read_end(png, NULL);
     add_notes(png, info, *reader->image);
-    return decode_values(*reader->image, error);
+    return coded ? AUR_OK : decode_values(*reader->image, error);
 }
 
 static bool recognize(const aur_image_source *source) {

@@ -33,8 +33,8 @@ const char *aur_image_format_of(size_t size, const void *data) {
     return format != NULL ? format->name : NULL;
 }
 
-aur_result aur_image_read_memory(const char *name, size_t size, const void *data, aur_image **image,
-                                 aur_error *error) {
+aur_result aur_image_read_memory_coded(const char *name, size_t size, const void *data, aur_image **image,
+                                       aur_error *error) {
     *image = NULL;
     const aur_image_source source = {.name = name, .size = size, .data = data};
     const aur_image_format *const format = recognize(&source);
@@ -52,7 +52,7 @@ aur_result aur_image_read_memory(const char *name, size_t size, const void *data
     return aur_fail_in(error, result, name);
 }
 
-aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) {
+aur_result aur_image_read_coded(const char *path, aur_image **image, aur_error *error) {
     *image = NULL;
     const size_t limit = (size_t)1 << 34;
     char *data;
@@ -60,9 +60,29 @@ aur_result aur_image_read(const char *path, aur_image **image, aur_error *error)
     aur_result result = aur_file_read(path, limit, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    result = aur_image_read_memory(path, size, data, image, error);
+    result = aur_image_read_memory_coded(path, size, data, image, error);
     free(data);
     return result;
+}
+
+static aur_result expand(const char *name, aur_result result, aur_image **image, aur_error *error) {
+    if (result != AUR_OK)
+        return result;
+    result = aur_fail_in(error, aur_image_expand(*image, error), name);
+    if (result != AUR_OK) {
+        aur_image_destroy(*image);
+        *image = NULL;
+    }
+    return result;
+}
+
+aur_result aur_image_read_memory(const char *name, size_t size, const void *data, aur_image **image,
+                                 aur_error *error) {
+    return expand(name, aur_image_read_memory_coded(name, size, data, image, error), image, error);
+}
+
+aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) {
+    return expand(path, aur_image_read_coded(path, image, error), image, error);
 }
 
 aur_result aur_image_find_writer(const char *path, const char *format, const aur_row **row,

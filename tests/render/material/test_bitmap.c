@@ -101,6 +101,40 @@ static void preserves_every_bit(void **state) {
     }
 }
 
+/* Codes of 8 bits give what their values give: the same form, texels and range. */
+static void codes_pack_like_values(void **state) {
+    (void)state;
+    static const form forms[] = {{300, 200, 256, false, true, 0, 0}, {131, 70, 256, true, true, 0, 0},
+                                 {64, 64, 7, true, false, 0, 0},     {3, 70, 9, false, false, 0, 0},
+                                 {1, 1, 1, true, true, 0, 0},        {70000, 1, 256, false, true, 0, 0}};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
+        float *const data = image_of(&forms[i]);
+        const size_t count = 4 * forms[i].width * forms[i].height;
+        unsigned char *const codes = malloc(count);
+        const aur_texel_source source = source_of(&forms[i], data);
+        aur_texel_source coded = source;
+        coded.data = NULL;
+        coded.codes = codes;
+        for (size_t k = 0; k < 256; ++k)
+            coded.code_values[k] = (float)k / 64.0f - 1.0f;
+        for (size_t k = 0; k < count; ++k)
+            codes[k] = (unsigned char)((data[k] + 1.0f) * 64.0f);
+        aur_bitmap texels[2];
+        aur_texel_range ranges[2];
+        assert_int_equal(aur_bitmap_pack(&source, NULL, &texels[0], &ranges[0], NULL), AUR_OK);
+        assert_int_equal(aur_bitmap_pack(&coded, NULL, &texels[1], &ranges[1], NULL), AUR_OK);
+        assert_int_equal(texels[1].channels, texels[0].channels);
+        assert_int_equal(texels[1].value_bytes, 1);
+        assert_int_equal(count_wrong(&source, &texels[1], 0, 1), 0);
+        assert_memory_equal(&ranges[1].sum, &ranges[0].sum, sizeof ranges[0].sum);
+        assert_true(ranges[1].maximum == ranges[0].maximum);
+        for (size_t k = 0; k < 2; ++k)
+            aur_bitmap_release(&texels[k]);
+        free(codes);
+        free(data);
+    }
+}
+
 typedef struct reader {
     const aur_texel_source *source;
     const aur_bitmap *texels;
@@ -159,6 +193,7 @@ static void bounds_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(preserves_every_bit),
+        cmocka_unit_test(codes_pack_like_values),
         cmocka_unit_test(bounds_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,7 +49,7 @@ static void warn_of_image(const aur_loader *self, const aur_image *image, const 
     const aur_location where = {.file = name};
     if (aur_image_notes(image)[0] != '\0')
         aur_warn_at(self->warnings, where, "%s", aur_image_notes(image));
-    if (!aur_image_color_channels(image, channels))
+    if (image->codes != NULL || !aur_image_color_channels(image, channels))
         return;
     for (size_t i = 0; i < (channels[0] == channels[1] ? 1u : 3u); ++i)
         aur_image_count_odd(image, channels[i], found);
@@ -75,13 +75,16 @@ static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
             return aur_fail_memory(self->error);
         const aur_model_file *const part =
             aur_model_find_file(&self->scene->document.model_files, name->text);
-        const aur_result result = part != NULL ? aur_image_read_memory(part->name, part->size, part->data,
-                                                                       &self->image, self->error)
-                                               : aur_image_read(name->text, &self->image, self->error);
+        const aur_result result =
+            part != NULL
+                ? aur_image_read_memory_coded(part->name, part->size, part->data, &self->image, self->error)
+                : aur_image_read_coded(name->text, &self->image, self->error);
         if (result != AUR_OK)
             return result;
         warn_of_image(self, self->image, name->text);
     }
+    if (strcmp(parameters->plugin, "envmap") == 0 && aur_image_expand(self->image, self->error) != AUR_OK)
+        return AUR_ERROR_MEMORY;
     return aur_parameters_add_object(parameters, "bitmap", "image", self->image, parameters->location,
                                      self->error);
 }

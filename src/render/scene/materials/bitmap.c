@@ -1,5 +1,6 @@
 #include "render/scene/materials/bitmap.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { TILE_BITS = 6, BYTE_NUMBERS = 256, SHORT_NUMBERS = 65536 };
@@ -127,6 +128,40 @@ static attempt put_all(packing *self) {
     return FITS;
 }
 
+/* How many texels from column x on lie beside each other in a row of a tile. */
+static size_t run_of(const aur_bitmap *texels, size_t x) {
+    const size_t tile = (size_t)1 << texels->tile_x;
+    return texels->width - x < tile ? texels->width - x : tile;
+}
+
+/* Codes are the indices. */
+static attempt put_codes(packing *self) {
+    const aur_texel_source *const source = self->source;
+    const aur_bitmap *const texels = self->texels;
+    const size_t stride = source->stride, r = source->channel[0], g = source->channel[1],
+                 b = source->channel[2];
+    self->numbers.count = BYTE_NUMBERS;
+    memcpy(self->numbers.values, source->code_values, sizeof source->code_values);
+    for (size_t y = 0; y < texels->height; ++y) {
+        const unsigned char *from = source->codes + y * texels->width * stride;
+        for (size_t x = 0, run; x < texels->width; x += run) {
+            run = run_of(texels, x);
+            unsigned char *to = texels->memory + aur_bitmap_index(texels, x, y) * texels->channels;
+            for (size_t k = 0; texels->channels == 1 && k < run; ++k, from += stride) {
+                if (from[r] != from[g] || from[r] != from[b])
+                    return HAS_COLORS;
+                *to++ = from[r];
+            }
+            for (size_t k = 0; texels->channels == 3 && k < run; ++k, from += stride, to += 3) {
+                to[0] = from[r];
+                to[1] = from[g];
+                to[2] = from[b];
+            }
+        }
+    }
+    return FITS;
+}
+
 /* The table from indices to values. */
 static bool finish(packing *self) {
     const aur_texel_source *const source = self->source;
@@ -141,6 +176,32 @@ static bool finish(packing *self) {
         for (size_t i = 0; i < numbers->count; ++i)
             texels->table[c * numbers->count + i] = source->map(source->context, c, numbers->values[i]);
     return true;
+}
+
+/* The same as `measure` for numbers of a byte, which most images have, by a table. */
+static void measure_bytes(const packing *self) {
+    const aur_bitmap *const texels = self->texels;
+    const size_t second = texels->channels == 3 ? 1 : 0;
+    double values[3][BYTE_NUMBERS], sum[3] = {0}, most[3] = {0};
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < self->numbers.count; ++i) {
+            const float value = texels->table[c * texels->table_step + i];
+            values[c][i] = value > 0.0f ? (double)value : 0.0;
+        }
+    for (size_t y = 0; y < texels->height; ++y)
+        for (size_t x = 0, run; x < texels->width; x += run) {
+            run = run_of(texels, x);
+            const unsigned char *at = texels->memory + aur_bitmap_index(texels, x, y) * texels->channels;
+            for (size_t k = 0; k < run; ++k, at += texels->channels)
+                for (size_t c = 0; c < 3; ++c) {
+                    const double value = values[c][at[c * second]];
+                    sum[c] += value;
+                    most[c] = value > most[c] ? value : most[c];
+                }
+        }
+    memcpy(self->range->sum, sum, sizeof sum);
+    for (size_t c = 0; c < 3; ++c)
+        self->range->maximum = fmaxf(self->range->maximum, (float)most[c]);
 }
 
 static void measure(const packing *self) {
@@ -179,7 +240,8 @@ aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *page
     size_t channels = source->same ? 1 : 3, value_bytes = 1;
     bool good = begin(&self, channels, value_bytes);
     /* Tries small formats first: an image that does not fit one usually shows it early. */
-    for (attempt last = FITS; good && (last = put_all(&self)) != FITS;) {
+    for (attempt last = FITS;
+         good && (last = source->codes != NULL ? put_codes(&self) : put_all(&self)) != FITS;) {
         channels = last == HAS_COLORS ? 3 : channels;
         value_bytes *= last == HAS_MORE_VALUES ? 2 : 1;
         end(&self);
@@ -188,7 +250,7 @@ aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *page
     good = good && finish(&self);
     aur_result result = good ? AUR_OK : aur_fail_memory(error);
     if (good) {
-        measure(&self);
+        (texels->value_bytes == 1 ? measure_bytes : measure)(&self);
         result = move_to_pages(texels, pages, error);
     }
     numbering_end(&self.numbers);

@@ -25,6 +25,9 @@ typedef struct aur_bitmap {
 typedef struct aur_texel_source {
     size_t width, height, stride; /* `stride` floats from one pixel to the next */
     const float *data;
+    /* Not NULL: codes instead of `data`, and what they stand for, each a different value, in all channels. */
+    const unsigned char *codes;
+    float code_values[256];
     size_t channel[3];
     /* The value stored for an image value in red, green or blue; a pure function. */
     float (*map)(const void *context, size_t channel, float value);

@@ -88,6 +88,7 @@ static aur_result take_texels(aur_texture *texture, const aur_image *image, aur_
                                .height = image->height,
                                .stride = image->channel_count,
                                .data = image->data,
+                               .codes = image->codes,
                                .map = map_value,
                                .context = self,
                                .same =
@@ -99,6 +100,8 @@ static aur_result take_texels(aur_texture *texture, const aur_image *image, aur_
     self->opaque = source.channel[0] == SIZE_MAX;
     if (self->opaque)
         source.channel[0] = source.channel[1] = source.channel[2] = 0;
+    if (image->codes != NULL)
+        aur_image_code_values(image, source.channel[0], source.code_values);
     self->encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
     result = aur_bitmap_pack(&source, texture->pages, &self->texels, &range, error);
     if (result != AUR_OK)
