@@ -44,7 +44,7 @@ json 'len(it) >= 3' info a.exr --json
 json 'len(it) > 40' lab list --json
 json 'any(row["name"] == "finalgather" for row in it)' help integrators --json
 json 'any(row["key"] == "photons" for row in it)' help integrator finalgather --json
-json 'any(row["key"].endswith("--spp N") for row in it)' help command render --json
+json 'any(row["key"].endswith("--samples N") for row in it)' help command render --json
 # One schema a command: its options change values, which are null where they are not known, and no key.
 "$aureole" weights sobol -n 8 --lobe cosine --lobe2 phong:5 --angles 2 --rotations 1 --table phong.wt -q && "$aureole" weights sobol -n 8 \
   --lobe ggx:.4 --angles 2 --rotations 1 --table ggx.wt -q || status=1

@@ -68,7 +68,7 @@ expect 2 "nowhere" "$office" radiosity:load=nowhere
 expect 2 "not a radiosity solution" "$office" radiosity:load=t1.exr
 expect 2 "made for another scene" "$scenes/cube.xml" radiosity:load=s1
 expect 3 "no-folder/s: cannot write" "$office" radiosity:paths=100,save=no-folder/s
-expect 2 "emitter .constant. is no surface" "$source/tests/render/driver/sky.xml" radiosity
+expect 2 "emitter .constant. is not a surface" "$source/tests/render/driver/sky.xml" radiosity
 cp -r "$scenes" copy && sed '/<emitter/,/<\/emitter>/d' "$scenes/cube.xml" >copy/dark.xml
 expect 2 "no light" copy/dark.xml radiosity
 sed 's/1, 0.95, 0.85/nan, 1, 1/' "$scenes/cube.xml" >copy/nan.xml

@@ -355,7 +355,7 @@ static const struct bad_mesh {
      "face 999999999999\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
      13, "the file ends in vertex 2 of 3"},
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3x\n", 3, "an element needs a name and a count"},
-    {"a.serialized", "xxxxxxxxxxxxxxxxxxx", 0, "no serialized mesh file"},
+    {"a.serialized", "xxxxxxxxxxxxxxxxxxx", 0, "not a serialized mesh file"},
 };
 
 static void says_what_is_wrong_in_meshes(void **state) {
