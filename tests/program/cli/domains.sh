@@ -69,7 +69,7 @@ tail -n +2 exact.csv | awk -F, '
 # Areas of cells are those that `voronoi` has.
 "$aureole" weights axes.csv --method voronoi | tail -n +2 | awk -F, '{ printf "%.5g\n", 60 * $4 }' >areas
 "$aureole" voronoi axes.csv --format csv | tail -n +2 | awk -F, '{ printf "%.5g\n", $5 }' | cmp - areas || fail "weights by cells of axes"
-says 2 "give --method exact or voronoi" weights axes.csv
+says 2 "use --method exact or voronoi" weights axes.csv
 says 2 "--domain hemisphere takes its points for that" weights axes.csv --lobe cosine --method exact
 says 0 "" weights axes.csv --domain hemisphere --method exact --report # who says so
 
