@@ -262,7 +262,7 @@ done
 awk 'BEGIN { print "# hours"; for (i = 0; i < 8760; ++i) print (i % 24 < 8 || i % 24 >= 18 ? ".5,night" : "0,day") }' >nights.csv
 "$aureole" irradiance $yard mixed.epw --up 0,0,1 -n 64 --schedule nights.csv -q -o by-file.csv || fail "--schedule FILE"
 cmp -s at-18-8.csv by-file.csv && ! cmp -s at-8-18.csv by-file.csv || fail "a schedule by file"
-refused "hours like 8-18 or 22-6, or a file expected" $yard mixed.epw --schedule 8-8
+refused "hours like 8-18 or 22-6, daylight, or a file expected" $yard mixed.epw --schedule 8-8
 for option in "--weather mixed.epw" "--sky uniform" "--parts" "--to csv" "--error 1%"; do
   refused "cannot be used with --coefficients" plane.xml --sensors up.pts --coefficients $option
 done

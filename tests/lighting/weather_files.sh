@@ -37,9 +37,17 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "autonomy") c = i } NR > 
 [ "$(grep -c 'LEED.*,yes' m.csv)" = 3 ] && ! grep -q EN m.csv || fail "LEED: $(cat m.csv)"
 metrics --schedule 9-17
 grep -q 'LEED\|EN 17037' m.csv && fail "LEED counts from 8 to 18"
-# Of 24 hours 13 have light: the autonomy of 100 lux is above half of them, that of 10^6 lux is not.
-metrics --schedule 0-24 --threshold 300
+# EN 17037 counts half of the daylight hours, which are the half of all hours with the most diffuse light: an oracle by sort.
+metrics --schedule daylight --threshold 300
 grep -q 'EN 17037, target illuminance of the level minimum.*,50,' m.csv && grep -q 'minimum illuminance of the level medium.*,95,' m.csv || fail "EN 17037: $(cat m.csv)"
+cp sensors.csv daylight.csv
+hours=$(($(wc -l <days.epw) - 8))
+tail -n "$hours" days.epw | awk -F, '{ print $16 "," NR }' | sort -t, -k1,1gr -k2,2n | awk -F, -v half=$((hours / 2)) '{ print $2 "," (NR <= half) }' |
+  sort -n | cut -d, -f2 >daylight_hours.csv
+metrics --schedule daylight_hours.csv --threshold 300
+cmp -s sensors.csv daylight.csv || fail "--schedule daylight is not the half of the hours with the most diffuse light"
+metrics --schedule 0-24 --threshold 300
+grep -q 'EN 17037' m.csv && fail "EN 17037 does not count nights"
 metrics --threshold 1e6 && [ "$(value 'spatial daylight autonomy')" = 0 ] || fail "nothing reaches 10^6 lux"
 "$aureole" irradiance -q open.rad --sensors points.pts --weather days.epw -n 512 --metrics m.json -o sensors.csv && grep -q '"metric": "annual sunlight exposure", "value": 0' m.json || fail "JSON"
 "$aureole" irradiance -q open.rad --sensors points.pts --metrics m.json 2>/dev/null && fail "--metrics without weather"

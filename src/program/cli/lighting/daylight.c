@@ -1,6 +1,7 @@
 #include "program/cli/lighting/irradiance.h"
 
 #include <aureole/text.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,8 +53,8 @@ static aur_result read_schedule(const char *path, size_t count, bool *hours, aur
     aur_error why;
     FILE *const file = cli_open_input(path, &why);
     if (file == NULL)
-        return aur_fail(error, AUR_ERROR_OPEN, "--schedule: hours like 8-18 or 22-6, or a file expected: %s",
-                        why.message);
+        return aur_fail(error, AUR_ERROR_OPEN,
+                        "--schedule: hours like 8-18 or 22-6, daylight, or a file expected: %s", why.message);
     char *line = NULL;
     size_t capacity = 0, found = 0, number = 0;
     aur_result result = AUR_OK;
@@ -129,9 +130,11 @@ const cli_option cli_daylight_options[] = {
     {CLI_TEXT(cli_daylight, options.useful, "useful", "LUX,LUX", "100,3000",
               "limits of useful daylight illuminance"),
      .parse = parse_range},
-    {CLI_TEXT(cli_daylight, schedule, "schedule", "H-H|FILE", "8-18",
-              "occupied hours, in the clock time of the weather file (22-6: over midnight), or a file with a "
-              "number per hour (above 0: occupied)")},
+    {CLI_TEXT(
+        cli_daylight, schedule, "schedule", "H-H|daylight|FILE", "8-18",
+        "occupied hours, in the clock time of the weather file (22-6: over midnight); daylight: the half "
+        "of the hours with the most diffuse irradiance (EN 17037); or a file with a number per hour "
+        "(above 0: occupied)")},
     {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "count Monday to Friday only")},
     {CLI_TEXT(
          cli_daylight, options.series, "series", "FILE", NULL,
@@ -186,15 +189,47 @@ static void print_summary(const aur_daylight_summary *summary) {
               summary->spatial_autonomy_most, summary->sunlight_exposure);
 }
 
-static aur_result take_schedule(cli_daylight *given, size_t count, bool **schedule, aur_error *error) {
+typedef struct diffuse_hour {
+    double irradiance;
+    size_t hour;
+} diffuse_hour;
+
+/* The most irradiance first; of equal hours the earlier one. */
+static int compare_diffuse(const void *first, const void *second) {
+    const diffuse_hour *const a = first, *const b = second;
+    if (a->irradiance != b->irradiance)
+        return a->irradiance > b->irradiance ? -1 : 1;
+    return a->hour < b->hour ? -1 : 1;
+}
+
+/* EN 17037's daylight hours: the half of the hours with the most diffuse horizontal irradiance. */
+static aur_result take_daylight_hours(const aur_weather_view *weather, bool *hours, aur_error *error) {
+    diffuse_hour *const order = malloc(weather->count * sizeof *order);
+    if (order == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < weather->count; ++i) {
+        const double irradiance = weather->hours[i].diffuse_horizontal;
+        order[i] = (diffuse_hour){isnan(irradiance) ? 0.0 : irradiance, i};
+    }
+    qsort(order, weather->count, sizeof *order, compare_diffuse);
+    for (size_t i = 0; i < weather->count; ++i)
+        hours[order[i].hour] = i < weather->count / 2;
+    free(order);
+    return AUR_OK;
+}
+
+static aur_result take_schedule(cli_daylight *given, const aur_weather_view *weather, bool **schedule,
+                                aur_error *error) {
     if (given->schedule == NULL || read_hours(given->schedule, &given->options))
         return AUR_OK;
-    *schedule = malloc(count * sizeof **schedule);
+    *schedule = malloc(weather->count * sizeof **schedule);
     if (*schedule == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     given->options.schedule = *schedule;
-    given->options.schedule_count = count;
-    return read_schedule(given->schedule, count, *schedule, error);
+    given->options.schedule_count = weather->count;
+    if (strcmp(given->schedule, "daylight") == 0)
+        return take_daylight_hours(weather, *schedule, error);
+    return read_schedule(given->schedule, weather->count, *schedule, error);
 }
 
 aur_result cli_daylight_coefficients(cli_daylight *given, const aur_scene *scene,
@@ -223,7 +258,7 @@ aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const a
     given->options.no_ground = given->options.ground_albedo == 0.0;
     aur_result result = aur_weather_read(given->weather, &weather, error);
     if (result == AUR_OK)
-        result = take_schedule(given, aur_weather_get_view(weather)->count, &schedule, error);
+        result = take_schedule(given, aur_weather_get_view(weather), &schedule, error);
     aur_daylight *const results = calloc(sensors->count, sizeof *results);
     if (result == AUR_OK && results == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);

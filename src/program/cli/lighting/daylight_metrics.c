@@ -69,8 +69,8 @@ static void put_leed(report_table *table, const aur_daylight_options *o, share a
 }
 
 /* EN 17037, method 2: a target illuminance over half of the space and a lower one over 95 % of it, for half
- * of the daylight hours (4380 per year). Over all 8760 hours that is an autonomy of 50 %. */
-static void put_en17037(report_table *table, const aur_daylight_options *o, share autonomy) {
+ * of the daylight hours, which are the 4380 hours of the year with the most diffuse horizontal light. */
+static void put_en17037(report_table *table, const cli_daylight *given, share autonomy) {
     static const struct {
         double threshold;
         const char *target, *minimum;
@@ -80,9 +80,11 @@ static void put_en17037(report_table *table, const aur_daylight_options *o, shar
                 {500.0, "EN 17037, target illuminance of the level medium",
                  "EN 17037, minimum illuminance of the level high"},
                 {750.0, "EN 17037, target illuminance of the level high", NULL}};
+    const double threshold = given->options.threshold != 0.0 ? given->options.threshold : 300.0;
+    if (given->schedule == NULL || strcmp(given->schedule, "daylight") != 0 || given->options.weekdays)
+        return;
     for (size_t i = 0; i < 4; ++i) {
-        if (o->threshold != rows[i].threshold || o->from != 0 || o->to != 24 || o->weekdays ||
-            o->schedule != NULL)
+        if (threshold != rows[i].threshold)
             continue;
         if (rows[i].target != NULL)
             put(table, rows[i].target, autonomy, 50.0);
@@ -121,7 +123,7 @@ aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_su
     put(table, "mean useful daylight", mean(sensors, results, AUR_DAYLIGHT_USEFUL), NAN);
     put(table, "mean daylight factor", mean(sensors, results, AUR_DAYLIGHT_FACTOR), NAN);
     put_leed(table, &given->options, autonomy);
-    put_en17037(table, &given->options, autonomy);
+    put_en17037(table, given, autonomy);
     const aur_result result = save(table, given->metrics, error);
     report_destroy(table);
     return result;
