@@ -95,7 +95,7 @@ assert noisy > 10 and clean == 0, (noisy, clean)
 END
 # The error of what is denoised is estimated by two halves.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
-grep -q 'denoised half of the samples: [0-9.]* % of its surroundings (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
+grep -q 'denoised half of the samples: [0-9.]* % of the local mean (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
 # Where the image has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"

@@ -39,7 +39,7 @@ grep -q "^aureole: $(value stats.json samples) samples, $(value stats.json rays)
 near "$(value asked.json mean)" "$(mean asked.pfm)" 1e-6 || fail "the mean is $(mean asked.pfm): $(cat asked.json)"
 near "$(value asked.json samples_per_pixel)" "$(awk "BEGIN { print $(value asked.json samples) / 64 }")" 1e-4 || fail "samples per pixel: $(cat asked.json)"
 awk -v e="$(value asked.json error)" -v l="$(value asked.json error_low)" -v h="$(value asked.json error_high)" -v s="$(value asked.json samples_per_pixel)" \
-  -v r="$(value asked.json rays)" 'BEGIN { printf "an error of %.3g %% of its surroundings (relative), between %.3g and %.3g (95 %%), after %.4g samples per pixel, %.3g rays", 100 * e, 100 * l, 100 * h, s, r
+  -v r="$(value asked.json rays)" 'BEGIN { printf "an error of %.3g %% of the local mean (relative), between %.3g and %.3g (95 %%), after %.4g samples per pixel, %.3g rays", 100 * e, 100 * l, 100 * h, s, r
     exit !(0 < l && l < e && e < h && h < .2) }' >expected || fail "an interval without its value: $(cat asked.json)"
 grep -qFf expected asked.txt || fail "$(cat asked.txt) is not $(cat expected)"
 "$aureole" render "$box" --width 8 --rounds 3 --integrator path -q -o rounds.pfm --json >rounds.json || fail "--rounds"

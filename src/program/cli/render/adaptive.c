@@ -63,7 +63,7 @@ const cli_option cli_target_options[] = {
 
 /* In the order of aur_error_measure. */
 static const char *const measure_texts[AUR_ERROR_MEASURE_COUNT] = {
-    "of its surroundings (relative)", "of its mean (mean)", "of the displayed range (display)"};
+    "of the local mean (relative)", "of the image mean (mean)", "of the displayed range (display)"};
 
 bool cli_is_target(const cli_target *target) {
     return target->error > 0.0 || target->seconds > 0.0 || target->rays > 0 || target->rounds > 0;
