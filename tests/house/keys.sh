@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# docs/keys.md, docs/options.md and fuzz/keys.dict say what the program's tables say, and docs/papers/gathering.md has the
-# keys of the lab's integrator.
+# docs/keys.md, docs/options.md and fuzz/keys.dict say what the program's tables say.
 set -u
 program=$1 source_tree=$2
 status=0
@@ -14,8 +13,4 @@ for pair in docs/keys.md docs/options.md fuzz/keys.dict; do
     status=1
   fi
 done
-grep '^### Keys\|^## Keys$\|^|' "$source_tree/docs/papers/gathering.md" |
-  awk '/^## Keys/ { on = 1 } on && /^\| `/ { split($0, cell, "|"); gsub(/[`, ]+/, "\n", cell[2]); print cell[2] }' | grep . | sort >told_lab
-"$program" help lab-integrator finalgather-lab --format csv | tail -n +2 | cut -d, -f1 | sort | diff - told_lab >difference ||
-  { echo "docs/papers/gathering.md: other keys than finalgather-lab has:"; cat difference; status=1; }
 exit $status
