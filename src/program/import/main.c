@@ -56,6 +56,12 @@ static void write_scene(writer *self) {
     stream_send_two(AUR_IMPORT_SCENE, sizeof self->camera, &self->camera, size, records);
 }
 
+/* The text after `text` in a message that ends at `end`, where it is empty. */
+static const char *text_after(const char *text, const char *end) {
+    const char *const next = text + strlen(text) + 1;
+    return next < end ? next : end;
+}
+
 int main(int argc, char **argv) {
     if (argc != 2) /* not started by the library */
         return 2;
@@ -63,15 +69,15 @@ int main(int argc, char **argv) {
     char *start;
     size_t size;
     const uint32_t first = stream_receive(AUR_IMPORT_START, &size, &start);
-    const char *const name = start + strlen(start) + 1;
+    const char *const end = start + size, *const name = text_after(start, end);
     if (strcmp(start, aur_version()) != 0)
         stream_fail(AUR_ERROR_UNSUPPORTED,
                     "the library is of version %s, but the program aureole-import of %s", start,
                     aur_version());
     model_file file = {.name = name, .is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb")};
     writer self = {.is_gltf = file.is_gltf, .first = first};
-    const char *const time = name + strlen(name) + 1;
-    const char *const variant = time + strlen(time) + 1;
+    const char *const time = text_after(name, end);
+    const char *const variant = text_after(time, end);
     if (self.is_gltf) {
         gltf_read(&self, &file);
         gltf_check_extensions(&self);
