@@ -5,7 +5,7 @@
 
 typedef struct bench_child_cost {
     double cpu_seconds; /* user and system time of all threads */
-    double peak_bytes;  /* peak memory; at least that of this process when it starts the child */
+    double peak_bytes;  /* peak memory; at least the size of this process when it starts the child */
 } bench_child_cost;
 
 /* Runs the program next to this one with the arguments (NULL-terminated, at most 30, without the program's

@@ -50,8 +50,8 @@ static inline error_blocks error_pattern_blocks(const error_pattern *pattern, si
     return squares;
 }
 
-/* The root mean square of means over side x side pixels, relative to that of independent errors with the same
- * root mean square. */
+/* The root mean square of means over side x side pixels, relative to independent errors with the same root
+ * mean square. */
 static inline double error_pattern_clumps(const error_pattern *pattern, size_t side) {
     const error_blocks squares = error_pattern_blocks(pattern, side);
     return squares.of_each > 0.0 ? sqrt(squares.of_sums / squares.of_each) : 0.0;

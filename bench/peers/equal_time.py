@@ -4,8 +4,8 @@ next to a reference, with its RMSE. Writes the images to docs/gallery and the se
 
     /tmp/peers/bin/python bench/peers/equal_time.py build/release/aureole [--seconds T] [--folder FOLDER]
 
-Requires Mitsuba 3 and NumPy, like time_to_quality.py, whose scene, timing and warm-up it uses. Mitsuba's time is that of the render
-call, Aureole's that of the whole process with loading and photon map. Each runs on one thread. Samples per pixel are extrapolated from
+Requires Mitsuba 3 and NumPy, like time_to_quality.py, whose scene, timing and warm-up it uses. For Mitsuba only the render
+call is timed, for Aureole the whole process with loading and photon map. Each runs on one thread. Samples per pixel are extrapolated from
 the time of a first image. The reference is the mean of two path-traced images, which FOLDER stores for later runs; its squared error,
 a quarter of their mean squared difference, is subtracted.
 """

@@ -97,11 +97,11 @@ def make_textures(given):
 
 def make_lights(given):
     """Ten thousand small emitting squares over a floor."""
-    lamps = "".join(
+    lights = "".join(
         shape("rectangle", '<emitter type="area"><rgb name="radiance" value="9"/></emitter>',
               f'<scale value=".002"/><rotate x="1" angle="180"/><translate x="{(i % 100) / 50 - 1}" y="{(i // 100) / 50 - 1}" z=".3"/>')
         for i in range(10000))
-    return HEAD + shape("rectangle", grey(0.5)) + lamps
+    return HEAD + shape("rectangle", grey(0.5)) + lights
 
 
 def make_materials(given):

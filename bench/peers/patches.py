@@ -3,10 +3,10 @@
 
     python3 bench/peers/patches.py build/release/aureole [-n 262144]
 
-The scene is a wall on a floor, both reflecting; three sensors face up, to the wall and away from it. The weather file is that of
-scripts/weather.sh, with the hours of 10 June, which is clear. Direct tracing uses Perez's sky without patches and the sun as a disk.
-Prints the root mean square difference over hours and sensors in % of the mean illuminance, that of
-the standard errors of both, and CPU seconds for the year.
+The scene is a wall on a floor, both reflecting; three sensors face up, to the wall and away from it. scripts/weather.sh writes
+the weather file; the hours are those of 10 June, a clear day. Direct tracing uses Perez's sky without patches and the sun as a disk.
+Prints the root mean square difference over hours and sensors in % of the mean illuminance, the root mean square
+of the standard errors of both, and CPU seconds for the year.
 """
 import argparse
 import csv

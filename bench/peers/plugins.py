@@ -12,7 +12,7 @@ The statistic of a channel of a pixel is t = (ours - reference) / sqrt(s^2 / n +
 and m samples of the reference. The test is two-sided, in XYZ, with Sidak's correction at 1 % over all channels
 of an image, as in Mitsuba's regression tests, but with Student's t, since s^2 is estimated.
 
-The variance of a sample is that of Mitsuba's `moment` if pixels are plain means of independent samples. Otherwise
+Mitsuba's `moment` gives the variance of a sample if pixels are plain means of independent samples. Otherwise
 (other samplers, filters wider than a pixel, other integrators) it comes from n images of m / n samples. The channels of an
 `aov` integrator are compared too. Mitsuba renders spectra that only its spectral mode supports in that mode, `directionalarea`
 with `ptracer`, and filters wider than a pixel with `llvm_ad_rgb` (with an LLVM newer than 16 in DRJIT_LIBLLVM_PATH).

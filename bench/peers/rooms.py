@@ -14,7 +14,7 @@ up to sixteen light sources. Seeds 1 to 12 are for tuning, 101 to 112 for report
 By default `finalgather` with its default settings renders for a number of CPU seconds on one thread (whole processes, Sobol' points, box filter),
 `path` for the same time, and --error to the smaller of their errors. The reference is two path-traced images a and b with independent seeds
 and the number of rays of --rays, sampled adaptively. The mean square error of x is the mean of (x - a)(x - b). The relative standard error of
-the RMSE, half that of the mean square error, follows it in parentheses. Ratios are of times to the same error, extrapolated as seconds^-1/2.
+the RMSE, half the relative standard error of the mean square error, follows it in parentheses. Ratios are of times to the same error, extrapolated as seconds^-1/2.
 With --until both renderers increase the samples, at most fourfold per step, until the error is reached or the next image would take
 more than --seconds. The time of `path` is then extrapolated to that error; final gathering is biased and cannot be extrapolated, so it has no
 ratio if it does not reach the error. With --ask images are rendered to a target error with --error's automatic choice and with `path`, which

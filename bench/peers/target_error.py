@@ -21,12 +21,7 @@ import subprocess
 import sys
 import tempfile
 
-FIRST, STEP, MOST_LANES = 16, 4, 1 << 24
-
-
-def cpu_seconds(who):
-    usage = resource.getrusage(who)
-    return usage.ru_utime + usage.ru_stime
+from time_to_quality import FIRST, MOST_LANES, STEP, cpu_seconds
 
 
 def error_of(first, second, measure):
