@@ -100,6 +100,10 @@ typedef struct aur_daylight_options {
     /* For each hour of the weather, whether it is occupied; overrides `from` and `to`. NULL: not used. */
     const bool *schedule;
     size_t schedule_count; /* must equal the weather's count */
+    /* The occupied hours are the daylight hours of EN 17037: the half of the weather's hours with the most
+     * diffuse horizontal irradiance, of equal hours the earlier ones. Overrides `from` and `to`; not together
+     * with `schedule`. */
+    bool daylight_hours;
 } aur_daylight_options;
 
 AUR_EXPERIMENTAL aur_result aur_daylight_options_init(aur_daylight_options *options, aur_error *error)

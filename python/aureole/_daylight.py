@@ -36,9 +36,17 @@ class Daylight(NamedTuple):
     sunlight_exposure: float  #: percent of sensors with more than 250 sun hours
 
 
-def _schedule(library: Any, schedule: Union[None, tuple[int, int], ArrayLike], options: Any) -> Any:
+_Schedule = Union[None, str, tuple[int, int], ArrayLike]
+
+
+def _schedule(library: Any, schedule: _Schedule, options: Any) -> Any:
     """Sets the hours that count; what is returned must live as long as the options."""
     if schedule is None:
+        return None
+    if isinstance(schedule, str):
+        if schedule != "daylight":
+            raise ArgumentError(f'schedule must be (from, to), "daylight" or a number per hour, not {schedule!r}')
+        options.daylight_hours = True
         return None
     if isinstance(schedule, tuple) and len(schedule) == 2:
         options.__setattr__("from", int(schedule[0]))
@@ -53,7 +61,7 @@ def _schedule(library: Any, schedule: Union[None, tuple[int, int], ArrayLike], o
 def daylight(
     scene: Union[Scene, Path], positions: ArrayLike, normals: ArrayLike, weather: Path, *, directions: int = 0,
     patches: int = 1, efficacy: str = "perez", ground_albedo: float = 0.2, threshold: float = 300.0,
-    useful: tuple[float, float] = (100.0, 3000.0), schedule: Union[None, tuple[int, int], ArrayLike] = None,
+    useful: tuple[float, float] = (100.0, 3000.0), schedule: _Schedule = None,
     weekdays: bool = False, up: ArrayLike = (0, 0, 0), north: ArrayLike = (0, 0, 0), max_depth: int = 0,
     set: Optional[str] = None, seed: int = 0, threads: int = 0, definitions: Optional[Mapping[str, Any]] = None,
     progress: Optional[Progress] = None,
@@ -66,7 +74,8 @@ def daylight(
     directions : from each sensor; 0: 16384.
     patches : M of Reinhart's patches, M x M for each of Tregenza's 145, from 1 to 6.
     efficacy : "perez" (1990), "179" lm/W, or "none": W/m2 in the place of lux.
-    schedule : (from, to) o'clock, over midnight where from is above to; or a number for each hour, above 0 where it counts.
+    schedule : (from, to) o'clock, over midnight where from is above to; a number for each hour, above 0 where it counts; or
+        "daylight", the half of the hours with the most diffuse irradiance (EN 17037).
     up, north : in the scene; zeros: of its sky, else +z and +y in Radiance's files, +y and -z in others.
     """
     library, texts = _lighting(), Texts()

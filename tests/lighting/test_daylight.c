@@ -178,12 +178,43 @@ static void test_hours(void **state) {
     aur_sky_patches_release(&patches);
 }
 
+/* The half of a day with the most diffuse irradiance, whose order is a permutation. At noon the file has the
+ * global irradiance only: 900 - 600 sin(height) of the sky is more than any other hour has. */
+static void test_daylight_hours(void **state) {
+    (void)state;
+    enum { DAY = 24, NOON = 11 };
+    static aur_weather_hour hours[HOURS];
+    aur_weather_view weather = year_of(hours);
+    weather.count = DAY;
+    for (size_t i = 0; i < DAY; ++i)
+        hours[i].diffuse_horizontal = 10.0 * (double)(1 + 7 * i % DAY);
+    hours[NOON].diffuse_horizontal = NAN;
+    hours[NOON].global_horizontal = 900.0;
+    aur_sky_patches patches;
+    aur_lit_hours lit;
+    assert_int_equal(aur_sky_patches_create(1, &patches, NULL), AUR_OK);
+    aur_daylight_options options = {.size = sizeof options, .daylight_hours = true};
+    assert_int_equal(aur_lit_hours_create(&weather, &options, &patches, &lit, NULL), AUR_OK);
+    assert_int_equal(lit.counted, DAY / 2);
+    assert_int_equal(lit.count, DAY);
+    for (size_t i = 0; i < DAY; ++i) {
+        size_t above = i == NOON ? 0 : 1;
+        for (size_t j = 0; j < DAY; ++j)
+            above += j != NOON && hours[j].diffuse_horizontal > hours[i].diffuse_horizontal;
+        assert_true(lit.hours[i].counts == (above < DAY / 2));
+    }
+    aur_lit_hours_release(&lit);
+    static const bool all[DAY] = {true};
+    options.schedule = all;
+    options.schedule_count = DAY;
+    assert_int_equal(aur_lit_hours_create(&weather, &options, &patches, &lit, NULL), AUR_ERROR_ARGUMENT);
+    aur_sky_patches_release(&patches);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_patches),
-        cmocka_unit_test(test_product),
-        cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_hours),
+        cmocka_unit_test(test_patches), cmocka_unit_test(test_product),        cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_hours),   cmocka_unit_test(test_daylight_hours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,6 +127,13 @@ class Render(unittest.TestCase):
             names = list(found._fields[:8])
             columns = [column for name in names for column in (getattr(found, name), found.error[name])]
             self.assertTrue((np.stack(columns, 1) == np.load("year.npy")[:, 3:]).all())
+        diffuse = np.genfromtxt("year.epw", delimiter=",", skip_header=8, usecols=15)
+        lightest = np.zeros(8760)
+        lightest[np.argsort(-diffuse, kind="stable")[:4380]] = 1
+        by_name, by_hour = (aureole.daylight(scene, positions, normals, "year.epw", directions=64, schedule=schedule) for schedule in ("daylight", lightest))  # fmt: skip
+        self.assertTrue((by_name.autonomy == by_hour.autonomy).all() and (by_name.useful == by_hour.useful).all())
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.daylight(scene, positions, normals, "year.epw", schedule="nights")
         watts = aureole.daylight(scene, positions, normals, "year.epw", directions=64, efficacy="none")
         self.assertLess(watts.annual[0] * 90, found.annual[0])
         with self.assertRaises(aureole.ArgumentError):

@@ -53,6 +53,7 @@ typedef struct work {
     aur_lit_hours *lit;
     hour_sky *skies; /* of the lit hours */
     bool *odd;       /* the model gives no light */
+    bool *daylight;  /* the daylight hours of EN 17037; NULL: not requested */
 } work;
 
 static aur_location place_of(const aur_weather_view *weather, size_t hour) {
@@ -128,6 +129,44 @@ static void find_sky(const work *w, const aur_weather_hour *hour, const double s
     sky->diffuse *= constant ? lumens : aur_efficacy_of_sky(&found, water);
 }
 
+/* --- daylight hours */
+
+typedef struct diffuse_hour {
+    double irradiance;
+    size_t hour;
+} diffuse_hour;
+
+/* The most irradiance first; of equal hours the earlier one. */
+static int compare_diffuse(const void *first, const void *second) {
+    const diffuse_hour *const a = first, *const b = second;
+    if (a->irradiance != b->irradiance)
+        return a->irradiance > b->irradiance ? -1 : 1;
+    return a->hour < b->hour ? -1 : 1;
+}
+
+/* The half of the hours with the most diffuse irradiance; missing hours have none. */
+static aur_result find_daylight_hours(work *w, aur_error *error) {
+    const size_t count = w->weather->count;
+    diffuse_hour *const order = malloc(count * sizeof *order);
+    w->daylight = malloc(count * sizeof *w->daylight);
+    if (order == NULL || w->daylight == NULL) {
+        free(order);
+        return aur_fail_memory(error);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        hour_sky sky = {.up = false};
+        double sun[3];
+        const bool known = place_sun(w->weather, &w->weather->hours[i], &sky, sun) &&
+                           find_irradiances(&w->weather->hours[i], sun[2], &sky);
+        order[i] = (diffuse_hour){known ? sky.diffuse : 0.0, i};
+    }
+    qsort(order, count, sizeof *order, compare_diffuse);
+    for (size_t i = 0; i < count; ++i)
+        w->daylight[order[i].hour] = i < count / 2;
+    free(order);
+    return AUR_OK;
+}
+
 /* --- all hours */
 
 static bool counts(const work *w, size_t index) {
@@ -135,9 +174,10 @@ static bool counts(const work *w, size_t index) {
     const int hour = w->weather->hours[index].hour;
     const size_t weekday = ((size_t)w->weather->first_weekday + index / 24) % 7;
     const bool late = o->from < hour, early = hour <= o->to;
-    const bool within = o->schedule != NULL ? o->schedule[index]
-                        : o->from < o->to   ? late && early
-                                            : late || early;
+    const bool within = o->schedule != NULL   ? o->schedule[index]
+                        : w->daylight != NULL ? w->daylight[index]
+                        : o->from < o->to     ? late && early
+                                              : late || early;
     return within && !(o->weekdays && (weekday == 0 || weekday == 6));
 }
 
@@ -211,6 +251,8 @@ static aur_result check(const aur_weather_view *weather, const aur_daylight_opti
             "the place of the weather is none on earth: latitude %g must be within 90, longitude %g within "
             "180 and the time zone %g within 14",
             weather->latitude, weather->longitude, weather->timezone);
+    if (options->schedule != NULL && options->daylight_hours)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a schedule and daylight_hours exclude each other");
     if (options->schedule != NULL && options->schedule_count != weather->count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the schedule has %zu hours and the weather %zu",
                         options->schedule_count, weather->count);
@@ -226,14 +268,18 @@ aur_result aur_lit_hours_create(const aur_weather_view *weather, const aur_dayli
     aur_result result = check(weather, options, error);
     if (result != AUR_OK)
         return result;
-    work w = {weather, options, patches, lit, NULL, NULL};
+    work w = {.weather = weather, .options = options, .patches = patches, .lit = lit};
     w.skies = malloc(weather->count * sizeof *w.skies);
     w.odd = calloc(weather->count, sizeof *w.odd);
     lit->hours = malloc(weather->count * sizeof *lit->hours);
     lit->is_unknown = calloc(weather->count, sizeof *lit->is_unknown);
     result = w.skies != NULL && w.odd != NULL && lit->hours != NULL && lit->is_unknown != NULL
-                 ? find_hours(&w, error)
+                 ? AUR_OK
                  : aur_fail_memory(error);
+    if (result == AUR_OK && options->daylight_hours)
+        result = find_daylight_hours(&w, error);
+    if (result == AUR_OK)
+        result = find_hours(&w, error);
     const size_t rows = aur_daylight_blocks(lit->count);
     if (result == AUR_OK) {
         lit->radiance = calloc(rows * patches->count + 1, sizeof *lit->radiance);
@@ -247,6 +293,7 @@ aur_result aur_lit_hours_create(const aur_weather_view *weather, const aur_dayli
             lit->first_other = lit->other_skies++ == 0 ? lit->hours[i].hour : lit->first_other;
     free(w.skies);
     free(w.odd);
+    free(w.daylight);
     if (result != AUR_OK)
         aur_lit_hours_release(lit);
     return result;

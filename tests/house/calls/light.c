@@ -304,6 +304,10 @@ static void years(const aur_scene *scene) {
     accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
            &error);
     require(summary.hours == 3650 && result.value[AUR_DAYLIGHT_AUTONOMY] == 100.0, "aur_daylight_estimate");
+    options.daylight_hours = true;
+    accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
+           &error);
+    require(summary.hours == 4380, "daylight_hours");
     double coefficients[146 * 3], errors[146 * 3];
     options.subdivision = 7;
     refuse(aur_daylight_coefficients(scene, &sensors, &options, coefficients, errors, &error),

@@ -189,46 +189,17 @@ static void print_summary(const aur_daylight_summary *summary) {
               summary->spatial_autonomy_most, summary->sunlight_exposure);
 }
 
-typedef struct diffuse_hour {
-    double irradiance;
-    size_t hour;
-} diffuse_hour;
-
-/* The most irradiance first; of equal hours the earlier one. */
-static int compare_diffuse(const void *first, const void *second) {
-    const diffuse_hour *const a = first, *const b = second;
-    if (a->irradiance != b->irradiance)
-        return a->irradiance > b->irradiance ? -1 : 1;
-    return a->hour < b->hour ? -1 : 1;
-}
-
-/* EN 17037's daylight hours: the half of the hours with the most diffuse horizontal irradiance. */
-static aur_result take_daylight_hours(const aur_weather_view *weather, bool *hours, aur_error *error) {
-    diffuse_hour *const order = malloc(weather->count * sizeof *order);
-    if (order == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < weather->count; ++i) {
-        const double irradiance = weather->hours[i].diffuse_horizontal;
-        order[i] = (diffuse_hour){isnan(irradiance) ? 0.0 : irradiance, i};
-    }
-    qsort(order, weather->count, sizeof *order, compare_diffuse);
-    for (size_t i = 0; i < weather->count; ++i)
-        hours[order[i].hour] = i < weather->count / 2;
-    free(order);
-    return AUR_OK;
-}
-
 static aur_result take_schedule(cli_daylight *given, const aur_weather_view *weather, bool **schedule,
                                 aur_error *error) {
-    if (given->schedule == NULL || read_hours(given->schedule, &given->options))
+    given->options.daylight_hours = given->schedule != NULL && strcmp(given->schedule, "daylight") == 0;
+    if (given->schedule == NULL || given->options.daylight_hours ||
+        read_hours(given->schedule, &given->options))
         return AUR_OK;
     *schedule = malloc(weather->count * sizeof **schedule);
     if (*schedule == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     given->options.schedule = *schedule;
     given->options.schedule_count = weather->count;
-    if (strcmp(given->schedule, "daylight") == 0)
-        return take_daylight_hours(weather, *schedule, error);
     return read_schedule(given->schedule, weather->count, *schedule, error);
 }
 

@@ -62,7 +62,7 @@ static void put_leed(report_table *table, const aur_daylight_options *o, share a
     static const double targets[] = {40.0, 55.0, 75.0};
     static const char *const names[] = {"LEED v4.1, 1 point", "LEED v4.1, 2 points", "LEED v4.1, 3 points"};
     if ((o->threshold != 300.0 && o->threshold != 0.0) || o->from != 8 || o->to != 18 || o->weekdays ||
-        o->schedule != NULL)
+        o->schedule != NULL || o->daylight_hours)
         return;
     for (size_t i = 0; i < 3; ++i)
         put(table, names[i], autonomy, targets[i]);
@@ -70,7 +70,7 @@ static void put_leed(report_table *table, const aur_daylight_options *o, share a
 
 /* EN 17037, method 2: a target illuminance over half of the space and a lower one over 95 % of it, for half
  * of the daylight hours, which are the 4380 hours of the year with the most diffuse horizontal light. */
-static void put_en17037(report_table *table, const cli_daylight *given, share autonomy) {
+static void put_en17037(report_table *table, const aur_daylight_options *o, share autonomy) {
     static const struct {
         double threshold;
         const char *target, *minimum;
@@ -80,8 +80,8 @@ static void put_en17037(report_table *table, const cli_daylight *given, share au
                 {500.0, "EN 17037, target illuminance of the level medium",
                  "EN 17037, minimum illuminance of the level high"},
                 {750.0, "EN 17037, target illuminance of the level high", NULL}};
-    const double threshold = given->options.threshold != 0.0 ? given->options.threshold : 300.0;
-    if (given->schedule == NULL || strcmp(given->schedule, "daylight") != 0 || given->options.weekdays)
+    const double threshold = o->threshold != 0.0 ? o->threshold : 300.0;
+    if (!o->daylight_hours || o->weekdays)
         return;
     for (size_t i = 0; i < 4; ++i) {
         if (threshold != rows[i].threshold)
@@ -123,7 +123,7 @@ aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_su
     put(table, "mean useful daylight", mean(sensors, results, AUR_DAYLIGHT_USEFUL), NAN);
     put(table, "mean daylight factor", mean(sensors, results, AUR_DAYLIGHT_FACTOR), NAN);
     put_leed(table, &given->options, autonomy);
-    put_en17037(table, given, autonomy);
+    put_en17037(table, &given->options, autonomy);
     const aur_result result = save(table, given->metrics, error);
     report_destroy(table);
     return result;
