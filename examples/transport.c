@@ -17,12 +17,12 @@ static double *directions(const char *set, uint64_t count, aur_domain domain) {
     aur_directions_options options = {.size = sizeof options};
     aur_directions_options_init(count, domain, &options, NULL);
     double *const xyz = malloc(3 * count * sizeof *xyz);
-    aur_directions *made;
+    aur_directions *created;
     aur_error error;
-    if (xyz == NULL || aur_directions_create(set, &options, &made, &error) != AUR_OK ||
-        aur_directions_points(made, 0, count, 3 * count, xyz, NULL, &error) != AUR_OK)
+    if (xyz == NULL || aur_directions_create(set, &options, &created, &error) != AUR_OK ||
+        aur_directions_points(created, 0, count, 3 * count, xyz, NULL, &error) != AUR_OK)
         exit(1);
-    aur_directions_destroy(made);
+    aur_directions_destroy(created);
     return xyz;
 }
 

@@ -298,18 +298,18 @@ static profile make_profile(size_t points, const double radius[], const double h
 
 static void write_lamps(writer *w) {
     group *const g = &w->group;
-    const vec place = {1.45, 4.25, 0.0};
+    const vec base = {1.45, 4.25, 0.0};
     begin_group(w);
     static const double stand_radius[] = {0.012, 0.012, 0.012, 0.012, 0.016, 0.03, 0.15, 0.15};
     static const double stand_height[] = {1.39, 1.0, 0.6, 0.2, 0.06, 0.035, 0.022, 0.002};
     const profile stand = make_profile(8, stand_radius, stand_height);
-    add_turned(g, &stand, 16, place);
+    add_turned(g, &stand, 16, base);
     end_group(w, "stand", false);
     begin_group(w);
     static const double shade_radius[] = {0.13, 0.22};
     static const double shade_height[] = {1.7, 1.4};
     const profile shade = make_profile(2, shade_radius, shade_height);
-    add_turned(g, &shade, 16, place);
+    add_turned(g, &shade, 16, base);
     end_group(w, "shade", false);
     begin_group(w);
     profile globe = {0};

@@ -236,8 +236,8 @@ typedef struct lab_image_position {
 } lab_image_position;
 
 /* Writes NAME-<view>-<name>.exr, and a tone-mapped .png. */
-AUR_EXPERIMENTAL aur_result lab_picture(lab_run *run, const lab_image_position *place, const aur_image *image,
-                                        aur_error *error);
+AUR_EXPERIMENTAL aur_result lab_picture(lab_run *run, const lab_image_position *position,
+                                        const aur_image *image, aur_error *error);
 
 /* --- statistics of repeated measurements, with 95 % intervals */
 

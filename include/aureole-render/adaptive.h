@@ -134,7 +134,7 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_develop_half(const aur_adaptive *adapti
  * pixels. A denoised image of all replicas has about half of the halves' variance. Errors: ARGUMENT for
  * images of another size, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive,
-                                                        const aur_image *const made[2],
+                                                        const aur_image *const processed[2],
                                                         aur_error_figures *figures, aur_error *error)
     AUR_NONNULL(1, 2, 3);
 

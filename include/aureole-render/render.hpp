@@ -11,16 +11,16 @@ namespace aureole {
 class image {
   public:
     image(std::size_t width, std::size_t height, std::size_t channels) {
-        aur_image *made = nullptr;
-        detail::call(aur_image_create, width, height, channels, &made);
-        owned_.reset(made);
+        aur_image *created = nullptr;
+        detail::call(aur_image_create, width, height, channels, &created);
+        owned_.reset(created);
     }
-    explicit image(aur_image *made) noexcept : owned_(made) {
+    explicit image(aur_image *created) noexcept : owned_(created) {
     } /* takes it over */
     static image read(const std::string &path) {
-        aur_image *made = nullptr;
-        detail::call(aur_image_read, path.c_str(), &made);
-        return image(made);
+        aur_image *created = nullptr;
+        detail::call(aur_image_read, path.c_str(), &created);
+        return image(created);
     }
 
     std::size_t width() const noexcept {
@@ -57,9 +57,9 @@ class scene {
   public:
     explicit scene(const std::string &path, const aur_scene_options &options =
                                                 aureole::options<aur_scene_options>(aur_scene_options_init)) {
-        aur_scene *made = nullptr;
-        detail::call(aur_scene_load, path.c_str(), &options, &made);
-        owned_.reset(made);
+        aur_scene *created = nullptr;
+        detail::call(aur_scene_load, path.c_str(), &options, &created);
+        owned_.reset(created);
     }
     aur_scene_description describe() const {
         aur_scene_description found{};
@@ -79,17 +79,17 @@ class scene {
 class renderer {
   public:
     explicit renderer(const scene &of) {
-        aur_renderer *made = nullptr;
-        detail::call(aur_renderer_create, of.get(), &made);
-        owned_.reset(made);
+        aur_renderer *created = nullptr;
+        detail::call(aur_renderer_create, of.get(), &created);
+        owned_.reset(created);
     }
     image
     render(const aur_render_options &options = aureole::options<aur_render_options>(aur_render_options_init),
            aur_render_statistics *statistics = nullptr) {
         aur_error found{};
-        aur_image *made = nullptr;
-        const aur_result result = aur_renderer_render(owned_.get(), &options, &made, statistics, &found);
-        image picture(made); /* that of a render that was cancelled is freed */
+        aur_image *created = nullptr;
+        const aur_result result = aur_renderer_render(owned_.get(), &options, &created, statistics, &found);
+        image picture(created); /* that of a render that was cancelled is freed */
         if (result != AUR_OK)
             throw error(found);
         return picture;

@@ -90,9 +90,9 @@ class error : public std::runtime_error {
 
   private:
     static std::string text(const aur_error &found) {
-        std::string made(aur_error_format(&found, 0, nullptr), '\0');
-        aur_error_format(&found, made.size() + 1, made.data());
-        return made;
+        std::string formatted(aur_error_format(&found, 0, nullptr), '\0');
+        aur_error_format(&found, formatted.size() + 1, formatted.data());
+        return formatted;
     }
     aur_error found_;
 };
@@ -162,9 +162,9 @@ template <class Options, class Init, class... Inputs> Options options(Init init,
 class point_set {
   public:
     point_set(const std::string &set, const aur_pointset_options &options) {
-        aur_pointset *made = nullptr;
-        detail::call(aur_pointset_create, set.c_str(), &options, &made);
-        owned_.reset(made);
+        aur_pointset *created = nullptr;
+        detail::call(aur_pointset_create, set.c_str(), &options, &created);
+        owned_.reset(created);
     }
     point_set(const std::string &set, std::uint64_t count)
         : point_set(set, aureole::options<aur_pointset_options>(aur_pointset_options_init, count)) {
@@ -198,9 +198,9 @@ class point_set {
 class directions {
   public:
     directions(const std::string &set, const aur_directions_options &options) {
-        aur_directions *made = nullptr;
-        detail::call(aur_directions_create, set.c_str(), &options, &made);
-        owned_.reset(made);
+        aur_directions *created = nullptr;
+        detail::call(aur_directions_create, set.c_str(), &options, &created);
+        owned_.reset(created);
     }
     directions(const std::string &set, std::uint64_t count, aur_domain domain)
         : directions(set,
@@ -235,17 +235,17 @@ class directions {
 class points {
   public:
     points(const std::string &set, const aur_points_request &request) {
-        aur_points *made = nullptr;
-        detail::call(aur_points_generate, set.c_str(), &request, &made);
-        owned_.reset(made);
+        aur_points *created = nullptr;
+        detail::call(aur_points_generate, set.c_str(), &request, &created);
+        owned_.reset(created);
     }
     points(const std::string &set, const aur_directions_options &options)
         : points(set, aureole::options<aur_points_request>(aur_points_request_init, &options)) {
     }
     static points read(const std::string &path) {
-        aur_points *made = nullptr;
-        detail::call(aur_points_read, path.c_str(), nullptr, &made);
-        return points(made);
+        aur_points *created = nullptr;
+        detail::call(aur_points_read, path.c_str(), nullptr, &created);
+        return points(created);
     }
 
     const aur_points_view &view() const noexcept {
@@ -263,7 +263,7 @@ class points {
     }
 
   private:
-    explicit points(aur_points *made) : owned_(made) {
+    explicit points(aur_points *created) : owned_(created) {
     }
     detail::owner<aur_points, aur_points_destroy> owned_;
 };
@@ -285,9 +285,9 @@ inline double measure(
 class potential {
   public:
     explicit potential(const aur_density &density, double smoothness = 0.0) {
-        aur_potential *made = nullptr;
-        detail::call(aur_potential_create, &density, smoothness, &made);
-        owned_.reset(made);
+        aur_potential *created = nullptr;
+        detail::call(aur_potential_create, &density, smoothness, &created);
+        owned_.reset(created);
     }
     double mass() const noexcept {
         return aur_potential_mass(owned_.get());
@@ -337,15 +337,15 @@ aur_integral integrate(Function &&function, const aur_integrate_options &options
     found.size = sizeof found;
     if (results != nullptr)
         results->resize(work.values);
-    const aur_integrand ask = [](void *user, size_t count, const double *points, const double *along,
-                                 double *values, aur_error *) {
+    const aur_integrand integrand = [](void *user, size_t count, const double *points, const double *along,
+                                       double *values, aur_error *) {
         context &c = *static_cast<context *>(user);
         return c.guard(span<const double>(points, c.coordinates * count),
                        span<const double>(along, along != nullptr ? count : 0),
                        span<double>(values, c.values * count));
     };
     work.guard.run([&] {
-        detail::call(aur_integrate_values, ask, static_cast<void *>(&work), &options,
+        detail::call(aur_integrate_values, integrand, static_cast<void *>(&work), &options,
                      results != nullptr ? results->data() : nullptr, &found);
     });
     return found;
@@ -355,9 +355,9 @@ aur_integral integrate(Function &&function, const aur_integrate_options &options
 class nearest {
   public:
     explicit nearest(const aur_points_view &view) {
-        aur_nearest *made = nullptr;
-        detail::call(aur_nearest_create, &view, &made);
-        owned_.reset(made);
+        aur_nearest *created = nullptr;
+        detail::call(aur_nearest_create, &view, &created);
+        owned_.reset(created);
     }
     /* The indices of options.neighbours points per query, nearest first. */
     std::vector<std::size_t> find(span<const double> queries, std::size_t dimension,

@@ -35,24 +35,24 @@ static double cpu_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static aur_result estimate(const lab_run *run, const lab_case *made, aur_irradiance *results, study *found,
-                           aur_error *error) {
+static aur_result estimate(const lab_run *run, const lab_case *test_case, aur_irradiance *results,
+                           study *found, aur_error *error) {
     const lab_options *const lab = lab_run_options(run);
     double positions[3 * LAB_CASE_POINTS], normals[3 * LAB_CASE_POINTS];
     char text[LAB_CASE_SCENE + 64];
-    for (size_t i = 0; i < 3 * made->count; ++i) {
-        positions[i] = made->receivers[i / 3].position[i % 3];
-        normals[i] = made->receivers[i / 3].normal[i % 3];
+    for (size_t i = 0; i < 3 * test_case->count; ++i) {
+        positions[i] = test_case->receivers[i / 3].position[i % 3];
+        normals[i] = test_case->receivers[i / 3].normal[i % 3];
     }
-    const int size = snprintf(text, sizeof text, "<scene version='3.0.0'>%s</scene>", made->scene);
+    const int size = snprintf(text, sizeof text, "<scene version='3.0.0'>%s</scene>", test_case->scene);
     aur_scene *scene = NULL;
     const double begin = cpu_seconds();
     aur_result result = aur_scene_load_memory("case.xml", (size_t)size, text, NULL, &scene, error);
     const aur_sensors_view sensors = {
-        .size = sizeof sensors, .count = made->count, .positions = positions, .normals = normals};
+        .size = sizeof sensors, .count = test_case->count, .positions = positions, .normals = normals};
     aur_irradiance_options options = {.size = sizeof options};
     aur_irradiance_options_init(&options, NULL);
-    options.directions = made->more * (lab->quick ? DIRECTIONS_QUICK : DIRECTIONS);
+    options.directions = test_case->more * (lab->quick ? DIRECTIONS_QUICK : DIRECTIONS);
     options.threads = lab->threads;
     if (result == AUR_OK)
         result = aur_irradiance_estimate(scene, &sensors, &options, sizeof *results, results, error);
@@ -61,15 +61,16 @@ static aur_result estimate(const lab_run *run, const lab_case *made, aur_irradia
     return result;
 }
 
-static void compare(const lab_case *made, const aur_irradiance *results, double allowed, study *found) {
-    for (size_t i = 0; i < made->count; ++i)
-        found->largest = fmax(found->largest, fabs(made->closed[i]));
-    found->points = made->count;
-    for (size_t i = 0; i < made->count; ++i) {
-        const double off = fabs(results[i].value[AUR_IRRADIANCE_TOTAL][0] - made->closed[i]);
+static void compare(const lab_case *test_case, const aur_irradiance *results, double allowed, study *found) {
+    for (size_t i = 0; i < test_case->count; ++i)
+        found->largest = fmax(found->largest, fabs(test_case->closed[i]));
+    found->points = test_case->count;
+    for (size_t i = 0; i < test_case->count; ++i) {
+        const double off = fabs(results[i].value[AUR_IRRADIANCE_TOTAL][0] - test_case->closed[i]);
         const double beyond = fmax(off - allowed * found->largest, 0.0);
         const double error = results[i].error[AUR_IRRADIANCE_TOTAL][0];
-        found->differ = fmax(found->differ, fabs(made->closed[i] - made->smooth[i]) / found->largest);
+        found->differ =
+            fmax(found->differ, fabs(test_case->closed[i] - test_case->smooth[i]) / found->largest);
         found->worst = fmax(found->worst, off / found->largest);
         found->standard = fmax(found->standard, beyond > 0.0 ? beyond / error : 0.0);
         found->outside += beyond > STUDENT * error;
@@ -78,25 +79,26 @@ static void compare(const lab_case *made, const aur_irradiance *results, double 
 
 /* Writes the scene as NAME.xml, and its points with both references and the result as NAME.csv, for other
  * programs (bench/peers/cases.py). */
-static aur_result write_case(const lab_run *run, const char *name, const lab_case *made,
+static aur_result write_case(const lab_run *run, const char *name, const lab_case *test_case,
                              const aur_irradiance *results, aur_error *error) {
     char path[4096], text[LAB_CASE_SCENE + 256 * LAB_CASE_POINTS];
     const char *const folder = lab_run_options(run)->folder;
     aur_format(path, sizeof path, "%s/analytical-cases-%s.xml", folder, name);
-    size_t used = (size_t)aur_format(text, sizeof text, "<scene version='3.0.0'>%s</scene>\n", made->scene);
+    size_t used =
+        (size_t)aur_format(text, sizeof text, "<scene version='3.0.0'>%s</scene>\n", test_case->scene);
     aur_result result = aur_file_write(path, used, text, error);
     aur_format(path, sizeof path, "%s/analytical-cases-%s.csv", folder, name);
     used = (size_t)aur_format(text, sizeof text, "x,y,z,nx,ny,nz,closed,smooth,value,error\n");
-    for (size_t i = 0; i < made->count; ++i) {
-        const double *const at = made->receivers[i].position, *const up = made->receivers[i].normal;
+    for (size_t i = 0; i < test_case->count; ++i) {
+        const double *const at = test_case->receivers[i].position, *const up = test_case->receivers[i].normal;
         const double numbers[10] = {at[0],
                                     at[1],
                                     at[2],
                                     up[0],
                                     up[1],
                                     up[2],
-                                    made->closed[i],
-                                    made->smooth[i],
+                                    test_case->closed[i],
+                                    test_case->smooth[i],
                                     results[i].value[AUR_IRRADIANCE_TOTAL][0],
                                     results[i].error[AUR_IRRADIANCE_TOTAL][0]};
         for (size_t k = 0; k < 10; ++k)
@@ -122,21 +124,21 @@ static size_t allowed_outside(size_t points) {
 static aur_result run(lab_run *run, aur_error *error) {
     const bool quick = lab_run_options(run)->quick;
     const double worst = WORST[quick];
-    lab_case *const made = malloc(sizeof *made);
+    lab_case *const test_case = malloc(sizeof *test_case);
     aur_irradiance results[LAB_CASE_POINTS];
     aur_result result = AUR_OK;
     size_t points = 0, outside = 0, failed = 0, cases = 0;
-    for (const lab_case_row *row; made != NULL && result == AUR_OK && (row = lab_case_at(cases)) != NULL;
+    for (const lab_case_row *row; test_case != NULL && result == AUR_OK && (row = lab_case_at(cases)) != NULL;
          ++cases) {
         study found = {0};
-        made->count = made->scene_size = 0;
-        made->more = 1;
-        row->build(made, row->parameter);
-        result = estimate(run, made, results, &found, error);
+        test_case->count = test_case->scene_size = 0;
+        test_case->more = 1;
+        row->build(test_case, row->parameter);
+        result = estimate(run, test_case, results, &found, error);
         if (result != AUR_OK)
             break;
-        compare(made, results, ALLOWED, &found);
-        result = write_case(run, row->name, made, results, error);
+        compare(test_case, results, ALLOWED, &found);
+        result = write_case(run, row->name, test_case, results, error);
         if (result != AUR_OK)
             break;
         const bool good =
@@ -154,9 +156,9 @@ static aur_result run(lab_run *run, aur_error *error) {
         lab_time(run, row->name, found.seconds);
         lab_text(run, good ? "holds" : "fails");
     }
-    free(made);
-    if (made == NULL || result != AUR_OK)
-        return made == NULL ? AUR_ERROR_MEMORY : result;
+    free(test_case);
+    if (test_case == NULL || result != AUR_OK)
+        return test_case == NULL ? AUR_ERROR_MEMORY : result;
     const bool probability = outside <= allowed_outside(points);
     lab_note(run,
              "%zu of %zu cases hold: references within %g of the largest value, every point within %g, none "

@@ -16,15 +16,15 @@ typedef struct lab_case {
 
 typedef struct lab_case_row {
     const char *name, *derivations;
-    void (*build)(lab_case *made, double parameter);
+    void (*build)(lab_case *test_case, double parameter);
     double parameter;
 } lab_case_row;
 
 /* Appends to the scene's text. */
-void lab_case_put(lab_case *made, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void lab_case_put(lab_case *test_case, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A quadrilateral; the XML states its material or emission. */
-void lab_case_patch(lab_case *made, const lab_patch *patch, const char *inside);
-void lab_case_point(lab_case *made, const lab_receiver *receiver, double closed, double smooth);
+void lab_case_patch(lab_case *test_case, const lab_patch *patch, const char *inside);
+void lab_case_point(lab_case *test_case, const lab_receiver *receiver, double closed, double smooth);
 
 /* NULL past the end. */
 const lab_case_row *lab_case_at(size_t index);

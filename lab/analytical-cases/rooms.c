@@ -14,14 +14,14 @@
 static const lab_patch window = {{1.0, 0.0, 1.0}, {2.0, 0.0, 0.0}, {0.0, 0.0, 1.4}};
 static const double DESK = 0.85;
 
-static void put_room(lab_case *made) {
+static void put_room(lab_case *test_case) {
     static const char *const walls[] = {
         "0 0 0  4 0 0  4 6 0  0 6 0", "0 0 3  0 6 3  4 6 3  4 0 3", "0 0 0  0 6 0  0 6 3  0 0 3",
         "4 0 0  4 0 3  4 6 3  4 6 0", "0 6 0  4 6 0  4 6 3  0 6 3",
         /* around the window, with a seam from the corner */
         "0 0 0  0 0 3  4 0 3  4 0 0  0 0 0  1 0 1  3 0 1  3 0 2.4  1 0 2.4  1 0 1"};
     for (size_t i = 0; i < sizeof walls / sizeof walls[0]; ++i)
-        lab_case_put(made, "<shape type='polygon'><string name='vertices' value='%s'/>" BLACK "</shape>",
+        lab_case_put(test_case, "<shape type='polygon'><string name='vertices' value='%s'/>" BLACK "</shape>",
                      walls[i]);
 }
 
@@ -53,31 +53,32 @@ static void window_at(const lab_receiver *at, double w[2], double h[2]) {
     h[1] = h[0] + window.b[2];
 }
 
-static void uniform_window(lab_case *made, double unused) {
+static void uniform_window(lab_case *test_case, double unused) {
     (void)unused;
-    lab_case_put(made, SKY("uniform"));
-    put_room(made);
+    lab_case_put(test_case, SKY("uniform"));
+    put_room(test_case);
     for (size_t i = 0; i < 20; ++i) {
         const lab_receiver at = desk(i);
-        lab_case_point(made, &at, lab_patch_closed(&at, &window), lab_patch_smooth(&at, &window, NULL, NULL));
+        lab_case_point(test_case, &at, lab_patch_closed(&at, &window),
+                       lab_patch_smooth(&at, &window, NULL, NULL));
     }
 }
 
-static void overcast_window(lab_case *made, double unused) {
+static void overcast_window(lab_case *test_case, double unused) {
     (void)unused;
-    lab_case_put(made, SKY("cie-overcast"));
-    put_room(made);
+    lab_case_put(test_case, SKY("cie-overcast"));
+    put_room(test_case);
     for (size_t i = 0; i < 20; ++i) {
         const lab_receiver at = desk(i);
         double w[2], h[2];
         window_at(&at, w, h);
-        lab_case_point(made, &at, lab_opening_overcast(at.position[1], w, h),
+        lab_case_point(test_case, &at, lab_opening_overcast(at.position[1], w, h),
                        lab_patch_smooth(&at, &window, overcast, NULL));
     }
 }
 
 /* No closed form: integral over the pane's area with the series, and over angles with the sum. */
-static void glazed_window(lab_case *made, double transmissivity) {
+static void glazed_window(lab_case *test_case, double transmissivity) {
     char inside[256];
     lab_case head = {.count = 0};
     lab_case_put(&head,
@@ -86,47 +87,47 @@ static void glazed_window(lab_case *made, double transmissivity) {
                  transmissivity);
     for (size_t i = 0; i < sizeof inside; ++i)
         inside[i] = head.scene[i];
-    lab_case_put(made, SKY("cie-overcast"));
-    put_room(made);
-    lab_case_patch(made, &window, inside);
+    lab_case_put(test_case, SKY("cie-overcast"));
+    put_room(test_case);
+    lab_case_patch(test_case, &window, inside);
     /* With the number of directions of other cases the largest error of 20 points is .35 %: few points, with
      * many. */
     static const size_t chosen[] = {0, 2, 7, 13, 18};
-    made->more = 4;
+    test_case->more = 4;
     const pane closed = {transmissivity, lab_pane_closed}, series = {transmissivity, lab_pane_series};
     for (size_t i = 0; i < sizeof chosen / sizeof chosen[0]; ++i) {
         const lab_receiver at = desk(chosen[i]);
         double w[2], h[2];
         window_at(&at, w, h);
-        lab_case_point(made, &at, lab_opening_by_angles(at.position[1], w, h, through_pane, &closed),
+        lab_case_point(test_case, &at, lab_opening_by_angles(at.position[1], w, h, through_pane, &closed),
                        lab_patch_smooth(&at, &window, through_pane, &series));
     }
 }
 
 /* A long wall outside, 5 in front of the window, hides the view below its upper edge. */
-static void masked_window(lab_case *made, double height) {
+static void masked_window(lab_case *test_case, double height) {
     const lab_patch wall = {{-400.0, -5.0, -1.0}, {804.0, 0.0, 0.0}, {0.0, 0.0, height + 1.0}};
-    lab_case_put(made, SKY("cie-overcast"));
-    put_room(made);
-    lab_case_patch(made, &wall, BLACK);
+    lab_case_put(test_case, SKY("cie-overcast"));
+    put_room(test_case);
+    lab_case_patch(test_case, &wall, BLACK);
     for (size_t i = 0; i < 20; ++i) {
         const lab_receiver at = desk(i);
         double w[2], h[2];
         window_at(&at, w, h);
         h[0] = fmax(h[0], (height - DESK) * at.position[1] / (at.position[1] + 5.0));
-        lab_case_point(made, &at, lab_opening_overcast(at.position[1], w, h),
+        lab_case_point(test_case, &at, lab_opening_overcast(at.position[1], w, h),
                        lab_opening_by_angles(at.position[1], w, h, overcast, NULL));
     }
 }
 
 /* An opening in a black roof at height 3. */
-static void roof_opening(lab_case *made, double half) {
+static void roof_opening(lab_case *test_case, double half) {
     const lab_patch hole = {{-half, -half, 3.0}, {2.0 * half, 0.0, 0.0}, {0.0, 2.0 * half, 0.0}};
     /* Few rays to a uniform sky leave through a small opening. */
-    made->more = 2;
-    lab_case_put(made, SKY("uniform"));
+    test_case->more = 2;
+    lab_case_put(test_case, SKY("uniform"));
     lab_case_put(
-        made,
+        test_case,
         "<shape type='polygon'><string name='vertices' value='-900 -900 3  900 -900 3  900 900 3  -900 "
         "900 3  -900 -900 3  %g %g 3  %g %g 3  %g %g 3  %g %g 3  %g %g 3'/>" BLACK "</shape>",
         -half, -half, -half, half, half, half, half, -half, -half, -half);
@@ -136,52 +137,52 @@ static void roof_opening(lab_case *made, double half) {
         /* past the edges of the roof, from the sky at the horizon */
         const lab_patch roof = {{-far, -far, 3.0}, {2.0 * far, 0.0, 0.0}, {0.0, 2.0 * far, 0.0}};
         const double edge = LAB_PI - lab_patch_closed(&at, &roof);
-        lab_case_point(made, &at, lab_patch_closed(&at, &hole) + edge,
+        lab_case_point(test_case, &at, lab_patch_closed(&at, &hole) + edge,
                        lab_patch_smooth(&at, &hole, NULL, NULL) + edge);
     }
 }
 
 /* Outdoors, below a black square: the sky that it does not hide. */
-static void overhang(lab_case *made, double height) {
+static void overhang(lab_case *test_case, double height) {
     const lab_patch roof = {{-1.0, 0.0, height}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
-    lab_case_put(made, SKY("uniform"));
-    lab_case_patch(made, &roof, BLACK);
+    lab_case_put(test_case, SKY("uniform"));
+    lab_case_patch(test_case, &roof, BLACK);
     for (size_t i = 0; i < 20; ++i) {
         const bool sideways = i % 2 == 1; /* faces +y, from in front of the roof */
         const lab_receiver at = {{0.4 * (double)(i % 5), sideways ? -0.01 : 0.5 * (double)(i / 5), 0.0},
                                  {0.0, sideways ? 1.0 : 0.0, sideways ? 0.0 : 1.0}};
         const double open = sideways ? 0.5 * LAB_PI : LAB_PI;
-        lab_case_point(made, &at, open - lab_patch_closed(&at, &roof),
+        lab_case_point(test_case, &at, open - lab_patch_closed(&at, &roof),
                        open - lab_patch_smooth(&at, &roof, NULL, NULL));
     }
 }
 
 /* Outdoors, next to a black wall, under the overcast sky. */
-static void wall_outside(lab_case *made, double height) {
+static void wall_outside(lab_case *test_case, double height) {
     const lab_patch wall = {{-2.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, height}};
-    lab_case_put(made, SKY("cie-overcast"));
-    lab_case_patch(made, &wall, BLACK);
+    lab_case_put(test_case, SKY("cie-overcast"));
+    lab_case_patch(test_case, &wall, BLACK);
     for (size_t i = 0; i < 20; ++i) {
         const lab_receiver at = {{0.8 * (double)(i % 4), 0.4 + 0.7 * (double)(i / 4), 0.0}, {0.0, 0.0, 1.0}};
         const double w[2] = {-2.0 - at.position[0], 2.0 - at.position[0]}, h[2] = {0.0, height};
         const double open = 7.0 / 9.0 * LAB_PI;
-        lab_case_point(made, &at, open - lab_opening_overcast(at.position[1], w, h),
+        lab_case_point(test_case, &at, open - lab_opening_overcast(at.position[1], w, h),
                        open - lab_patch_smooth(&at, &wall, overcast, NULL));
     }
 }
 
 /* A diffuse disk on the ground under a uniform sky reflects light to a vertical receiver above its centre,
  * which also sees half of the sky; and the sky's infinite ground. */
-static void ground(lab_case *made, double albedo) {
-    lab_case_put(made, SKY("uniform"));
-    lab_case_put(made,
+static void ground(lab_case *test_case, double albedo) {
+    lab_case_put(test_case, SKY("uniform"));
+    lab_case_put(test_case,
                  "<shape type='disk'><transform name='to_world'><scale value='10'/></transform><bsdf "
                  "type='diffuse'><float name='reflectance' value='%g'/></bsdf></shape>",
                  albedo);
     for (size_t i = 0; i < 10; ++i) {
         const double height = 0.5 * (double)(i + 1), turn = 0.7 * (double)i;
         const lab_receiver at = {{0.0, 0.0, height}, {cos(turn), sin(turn), 0.0}};
-        lab_case_point(made, &at, 0.5 * LAB_PI + albedo * lab_disk_sideways_closed(10.0, height),
+        lab_case_point(test_case, &at, 0.5 * LAB_PI + albedo * lab_disk_sideways_closed(10.0, height),
                        0.5 * LAB_PI + albedo * lab_disk_sideways_smooth(10.0, height));
     }
 }

@@ -5,17 +5,17 @@
 
 static const double ELEVATION = 35.0;
 
-static void general_sky(lab_case *made, double type) {
+static void general_sky(lab_case *test_case, double type) {
     const lab_sky sky = lab_sky_of((size_t)type, ELEVATION);
     static const double normals[5][3] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
     lab_case_put(
-        made,
+        test_case,
         "<emitter type='sky'><string name='model' value='cie'/><integer name='cie_type' value='%.0f'/>"
         "<float name='irradiance' value='1'/><vector name='up' x='0' y='0' z='1'/>"
         "<vector name='sun_direction' x='%.17g' y='0' z='%.17g'/></emitter>",
         type, sky.sun[0], sky.sun[2]);
-    lab_case_put(made, "<shape type='sphere'><point name='center' z='-9'/><bsdf type='diffuse'>"
-                       "<float name='reflectance' value='0'/></bsdf></shape>");
+    lab_case_put(test_case, "<shape type='sphere'><point name='center' z='-9'/><bsdf type='diffuse'>"
+                            "<float name='reflectance' value='0'/></bsdf></shape>");
     double level[2] = {1.0, 1.0};
     for (size_t i = 0; i < 5; ++i) {
         const lab_receiver at = {{0.0, 0.0, 1.0}, {normals[i][0], normals[i][1], normals[i][2]}};
@@ -26,7 +26,7 @@ static void general_sky(lab_case *made, double type) {
             level[1] = smooth;
         }
         /* Both in the first derivation's scale, so that the horizontal plane is compared too. */
-        lab_case_point(made, &at, closed / level[0], smooth / level[0]);
+        lab_case_point(test_case, &at, closed / level[0], smooth / level[0]);
     }
 }
 
@@ -42,9 +42,9 @@ static double of_sun(const void *data, double t, double azimuth) {
 
 /* A small disk of sky: its irradiance on the plane that faces it times the cosine at its centre, for any
  * plane that sees all of it; and the integral over the disk. */
-static void sun(lab_case *made, double half_angle) {
+static void sun(lab_case *test_case, double half_angle) {
     lab_case_put(
-        made,
+        test_case,
         "<emitter type='sun'><float name='irradiance' value='1'/><float name='half_angle' "
         "value='%g'/><vector name='sun_direction' x='0.6' y='0' z='0.8'/></emitter>"
         "<shape type='sphere'><point name='center' z='-9'/><bsdf type='diffuse'><float name='reflectance' "
@@ -60,7 +60,7 @@ static void sun(lab_case *made, double half_angle) {
             at.normal[d] = cos(angle) * center[d] + sin(angle) * tangent[d];
         const tilt view = {2.0 * half * half, sin(angle), cos(angle)};
         lab_case_point(
-            made, &at, cos(angle),
+            test_case, &at, cos(angle),
             2.0 * radiance *
                 lab_integrate(of_sun, &view, (const double[2]){0.0, 1.0}, (const double[2]){0.0, LAB_PI}));
     }

@@ -112,10 +112,10 @@ static aur_result measure(study *s, const char *set, size_t directions, const ch
                 values[b * s->seeds + k] +=
                     blurred_square(s, image, c, &blurs[b]) / (CHANNELS * s->mean * s->mean);
         }
-        const lab_image_position place = {view, form, .exposure = 1.5},
+        const lab_image_position position = {view, form, .exposure = 1.5},
                                  truth = {view, "reference", true, 1.5};
         if (result == AUR_OK && k == 0)
-            result = lab_picture(s->run, &place, image, error);
+            result = lab_picture(s->run, &position, image, error);
         if (result == AUR_OK && k == 0 && form == forms[0])
             result = lab_picture(s->run, &truth, s->reference, error);
         aur_image_destroy(image);
@@ -132,9 +132,9 @@ static aur_result study_pattern(study *s, const char *set, size_t directions, au
     }
     for (size_t b = 0; b < BLURS; ++b)
         for (size_t f = 0; f < FORMS; ++f) {
-            const double *const own = &values[f][b * s->seeds], *const base = &values[0][b * s->seeds];
-            const lab_interval rmse = lab_root_mean(s->seeds, own);
-            const lab_interval ratio = lab_root_ratio(s->seeds, own, s->seeds, base);
+            const double *const errors = &values[f][b * s->seeds], *const base = &values[0][b * s->seeds];
+            const lab_interval rmse = lab_root_mean(s->seeds, errors);
+            const lab_interval ratio = lab_root_ratio(s->seeds, errors, s->seeds, base);
             lab_row(s->run, (const char *const[]){set, forms[f], blurs[b].name, NULL}, 7,
                     (const double[]){(double)directions, 100.0 * rmse.value, 100.0 * rmse.low,
                                      100.0 * rmse.high, ratio.value, ratio.low, ratio.high});

@@ -73,9 +73,9 @@ static aur_result leave_out(lab_run *run, const char *set, aur_domain domain, au
 /* Every measure of one set on one domain. `found` has an entry for each measure. */
 static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size_t size, extremes *found,
                           aur_error *error) {
-    aur_points *made;
+    aur_points *generated;
     const lab_points request = {.set = set, .domain = domain, .size = size};
-    aur_result result = lab_points_make(&request, &made, error);
+    aur_result result = lab_points_make(&request, &generated, error);
     if (result != AUR_OK)
         return result;
     aur_measure_options how = {.size = sizeof how};
@@ -86,7 +86,7 @@ static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size
         double value;
         if (!find_metric(aur_measure_at(m), domain, metric))
             continue;
-        result = aur_measure(metric, aur_points_get_view(made), &how, &value, error);
+        result = aur_measure(metric, aur_points_get_view(generated), &how, &value, error);
         if (result == AUR_OK)
             lab_row(run, (const char *const[]){aur_domain_name(domain), metric, set, NULL}, 2,
                     (const double[]){(double)size, value});
@@ -95,7 +95,7 @@ static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size
         if (result != AUR_OK)
             result = leave_out(run, set, domain, result, error);
     }
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     return result;
 }
 

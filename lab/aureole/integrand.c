@@ -109,7 +109,7 @@ static aur_result measure(const study *s, const char *set, size_t count, double 
 
 static aur_result add_set(study *s, const char *set, aur_error *error) {
     double counts[MOST_SIZES], rms[MOST_SIZES], squares[MOST_SEEDS];
-    size_t made = 0;
+    size_t row_count = 0;
     for (size_t i = 0; i < s->sizes; ++i) {
         const size_t count = (size_t)SMALLEST << i;
         const aur_result result = measure(s, set, count, squares, error);
@@ -120,15 +120,15 @@ static aur_result add_set(study *s, const char *set, aur_error *error) {
         const lab_interval rmse = lab_root_mean(s->seeds, squares);
         if (strcmp(set, "random") == 0)
             s->random[i] = rmse.value;
-        counts[made] = (double)count;
-        rms[made++] = rmse.value;
+        counts[row_count] = (double)count;
+        rms[row_count++] = rmse.value;
         lab_row(s->run, (const char *const[]){set, NULL}, 5,
                 (const double[]){(double)count, rmse.value, rmse.low, rmse.high,
                                  s->random[i] > 0.0 ? rmse.value / s->random[i] : NAN});
     }
-    if (made < 3)
+    if (row_count < 3)
         return AUR_OK;
-    const lab_interval slope = lab_slope(made, counts, rms);
+    const lab_interval slope = lab_slope(row_count, counts, rms);
     lab_note(s->run, "%s: error falls as N^%.3f (%.3f to %.3f)", set, slope.value, slope.low, slope.high);
     return AUR_OK;
 }

@@ -54,8 +54,8 @@ static aur_result find_references(study *s, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k)
         result = render(s, "spherical-fibonacci", 4096, 1000 + k, &s->references[k], error);
-    const lab_image_position place = {.view = "view", .name = "reference", .reference = true};
-    return result == AUR_OK ? lab_picture(s->run, &place, s->references[0], error) : result;
+    const lab_image_position position = {.view = "view", .name = "reference", .reference = true};
+    return result == AUR_OK ? lab_picture(s->run, &position, s->references[0], error) : result;
 }
 
 static aur_result measure(study *s, const char *set, size_t count, double *squares, aur_error *error) {
@@ -80,7 +80,7 @@ static aur_result measure(study *s, const char *set, size_t count, double *squar
 
 static aur_result add_set(study *s, const char *set, aur_error *error) {
     double counts[MOST_SIZES], rms[MOST_SIZES], squares[MOST_REPEATS];
-    size_t made = 0;
+    size_t row_count = 0;
     for (size_t i = 0; i < s->sizes; ++i) {
         const size_t count = (size_t)SMALLEST << i;
         const aur_result result = measure(s, set, count, squares, error);
@@ -91,14 +91,14 @@ static aur_result add_set(study *s, const char *set, aur_error *error) {
         const lab_interval rmse = lab_root_mean(s->repeats, squares);
         if (strcmp(set, "random") == 0)
             s->random[i] = rmse.value;
-        counts[made] = (double)count;
-        rms[made++] = rmse.value;
+        counts[row_count] = (double)count;
+        rms[row_count++] = rmse.value;
         lab_row(s->run, (const char *const[]){set, NULL}, 5,
                 (const double[]){(double)count, rmse.value, rmse.low, rmse.high,
                                  s->random[i] > 0.0 ? rmse.value / s->random[i] : NAN});
     }
-    if (made >= 3)
-        lab_note(s->run, "%s: error falls as N^%.3f", set, lab_slope(made, counts, rms).value);
+    if (row_count >= 3)
+        lab_note(s->run, "%s: error falls as N^%.3f", set, lab_slope(row_count, counts, rms).value);
     return AUR_OK;
 }
 

@@ -14,15 +14,15 @@ static aur_result row(lab_run *run, const char *set, size_t count, aur_error *er
     lab_text(run, set);
     lab_number(run, (double)count);
     for (size_t m = 0; m < 3; ++m) {
-        double own = 0.0, other = 1.0;
-        aur_result result = lab_figure(&grid, metrics[m], options->threads, &own, error);
+        double value = 0.0, other = 1.0;
+        aur_result result = lab_figure(&grid, metrics[m], options->threads, &value, error);
         if (result == AUR_OK)
             result = lab_figure(&spiral, metrics[m], options->threads, &other, error);
         if (result != AUR_OK)
             return result;
         if (m == 0)
-            lab_number(run, own);
-        lab_number(run, own / other);
+            lab_number(run, value);
+        lab_number(run, value / other);
     }
     return AUR_OK;
 }

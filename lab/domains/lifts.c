@@ -151,12 +151,12 @@ static aur_result row(lab_run *run, const lift *from, size_t count, double *wxyz
         lab_number(run, (double)count);
     }
     for (size_t m = 0; m < 3 && result == AUR_OK; ++m) {
-        double own = 0.0, other = 1.0;
-        result = figure(metrics[m], count, wxyz, threads, &own, error);
+        double value = 0.0, other = 1.0;
+        result = figure(metrics[m], count, wxyz, threads, &value, error);
         if (result == AUR_OK)
             result = lab_figure(&spiral, metrics[m], threads, &other, error);
         if (result == AUR_OK)
-            lab_number(run, own / other);
+            lab_number(run, value / other);
     }
     return result;
 }

@@ -93,9 +93,9 @@ static aur_result choose(const aur_gather_settings *given, size_t base, size_t c
             "finalgather-lab: optimal weights of levels of up to %zu directions would take too long "
             "(at most %d); use fewer levels or weights=ratio",
             *count, MOST_OPTIMAL);
-    const aur_set_description *const own = aur_set_find(given->pattern);
+    const aur_set_description *const description = aur_set_find(given->pattern);
     if (strcmp(given->pattern, "spherical-fibonacci") != 0) { /* which stands for the grid */
-        if (own == NULL || !own->extensible)
+        if (description == NULL || !description->extensible)
             return aur_fail(
                 error, AUR_ERROR_UNSUPPORTED,
                 "finalgather-lab: adaptive gathering extends its pattern, and '%s' is not extensible",

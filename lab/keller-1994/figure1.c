@@ -72,12 +72,12 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
             result =
                 picture(run, stage, "path", width, quick ? 8 : 32, 1 + k, &images[1 + k], &means[k], error);
         if (result == AUR_OK) {
-            lab_image_position place = {.view = name, .name = "radiosity", .exposure = 0.5};
-            result = lab_picture(run, &place, images[0], error);
-            place.name = "path";
-            place.reference = true;
+            lab_image_position position = {.view = name, .name = "radiosity", .exposure = 0.5};
+            result = lab_picture(run, &position, images[0], error);
+            position.name = "path";
+            position.reference = true;
             if (result == AUR_OK)
-                result = lab_picture(run, &place, images[1], error);
+                result = lab_picture(run, &position, images[1], error);
         }
         if (result == AUR_OK)
             result = aur_image_mean(images[1], other, error);

@@ -25,10 +25,10 @@ void lab_tally_add(lab_tally *sum, const lab_tally *part) {
     sum->work += part->work;
 }
 
-void lab_tally_report(lab_run *run, const char *name, double asked, const lab_tally *tally) {
+void lab_tally_report(lab_run *run, const char *name, double target_error, const lab_tally *tally) {
     const double n = (double)tally->runs;
     lab_text(run, name);
-    lab_number(run, asked);
+    lab_number(run, target_error);
     lab_number(run, n);
     lab_number(run, (double)tally->held / n);
     lab_number(run, tally->bias / n);

@@ -17,5 +17,5 @@ extern const char *const lab_tally_of_samples[];
 /* Adds an interval about `value`, from `work` directions, rays or the like. */
 void lab_tally_count(lab_tally *tally, double value, double half_width, double reference, double work);
 void lab_tally_add(lab_tally *sum, const lab_tally *part);
-/* Adds a row; `asked` is the target error, 0 for runs of fixed size. */
-void lab_tally_report(lab_run *run, const char *name, double asked, const lab_tally *tally);
+/* Adds a row; `target_error` is the target error, 0 for runs of fixed size. */
+void lab_tally_report(lab_run *run, const char *name, double target_error, const lab_tally *tally);

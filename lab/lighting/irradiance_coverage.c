@@ -15,7 +15,7 @@ enum { SENSORS = 3 };
 typedef struct coverage_case {
     const char *name, *scene;
     double positions[SENSORS][3], normals[SENSORS][3];
-    double asked;
+    double target_error;
     /* The reference at a sensor; NULL: the mean over all runs of fixed size. */
     double (*reference)(const double position[3]);
 } coverage_case;
@@ -79,8 +79,8 @@ static const coverage_case cases[] = {
      NULL},
 };
 
-static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_case *given, double asked,
-                           size_t seed, aur_irradiance *results, aur_error *error) {
+static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_case *given,
+                           double target_error, size_t seed, aur_irradiance *results, aur_error *error) {
     const aur_sensors_view sensors = {.size = sizeof sensors,
                                       .count = SENSORS,
                                       .positions = given->positions[0],
@@ -88,7 +88,7 @@ static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_
     aur_irradiance_options options = {.size = sizeof options};
     aur_irradiance_options_init(&options, NULL);
     options.seed = seed;
-    options.error = asked;
+    options.error = target_error;
     options.threads = lab_run_options(run)->threads;
     return aur_irradiance_estimate(scene, &sensors, &options, sizeof *results, results, error);
 }
@@ -102,7 +102,8 @@ static aur_result study(lab_run *run, const aur_scene *scene, const coverage_cas
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     aur_result result = AUR_OK;
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
-        result = estimate(run, scene, given, i < seeds ? 0.0 : given->asked, i % seeds, results[i], error);
+        result =
+            estimate(run, scene, given, i < seeds ? 0.0 : given->target_error, i % seeds, results[i], error);
     double reference[SENSORS] = {0};
     for (size_t s = 0; s < SENSORS && result == AUR_OK; ++s) {
         if (given->reference != NULL)
@@ -117,7 +118,7 @@ static aur_result study(lab_run *run, const aur_scene *scene, const coverage_cas
             lab_tally_count(&t, r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], reference[i % SENSORS],
                             (double)r->directions);
         }
-        lab_tally_report(run, given->name, kind == 0 ? 0.0 : given->asked, &t);
+        lab_tally_report(run, given->name, kind == 0 ? 0.0 : given->target_error, &t);
         lab_tally_add(&pooled[kind], &t);
     }
     free(results);

@@ -12,13 +12,13 @@
 /* Pixels per side, and values per image. */
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
-typedef struct picture {
+typedef struct rendering {
     float values[VALUES];
     double low, high, mean, samples;
-} picture;
+} rendering;
 
-static aur_result render(lab_run *run, aur_renderer *renderer, double asked, size_t seed, picture *made,
-                         aur_error *error) {
+static aur_result render(lab_run *run, aur_renderer *renderer, double target_error, size_t seed,
+                         rendering *rendered, aur_error *error) {
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
@@ -28,9 +28,9 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     options.threads = lab_run_options(run)->threads;
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
-    target.error = asked;
+    target.error = target_error;
     target.measure = AUR_ERROR_MEASURE_MEAN;
-    target.rounds = asked > 0.0 ? 0 : 2;
+    target.rounds = target_error > 0.0 ? 0 : 2;
     aur_adaptive *adaptive = NULL;
     aur_image *image = NULL;
     aur_adaptive_report report = {.size = sizeof report};
@@ -42,11 +42,11 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     if (result == AUR_OK)
         result = aur_adaptive_develop(adaptive, false, &image, error);
     if (result == AUR_OK) {
-        memcpy(made->values, aur_image_data(image), sizeof made->values);
-        made->low = report.error_low;
-        made->high = report.error_high;
-        made->mean = report.mean;
-        made->samples = report.samples_per_pixel;
+        memcpy(rendered->values, aur_image_data(image), sizeof rendered->values);
+        rendered->low = report.error_low;
+        rendered->high = report.error_high;
+        rendered->mean = report.mean;
+        rendered->samples = report.samples_per_pixel;
     }
     aur_image_destroy(image);
     aur_adaptive_destroy(adaptive);
@@ -56,51 +56,51 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
 /* The image's root mean square error, relative to its mean. Counted as covered if it is within the interval,
  * and if it is below the interval's upper end, which is the stopping criterion of a render to a target error.
  */
-static void count_image(const picture *made, const float *reference, lab_tally t[2]) {
+static void count_image(const rendering *rendered, const float *reference, lab_tally t[2]) {
     double squares = 0.0;
     for (size_t i = 0; i < VALUES; ++i) {
-        const double off = (double)made->values[i] - (double)reference[i];
+        const double off = (double)rendered->values[i] - (double)reference[i];
         squares += off * off / VALUES;
     }
-    const double error = sqrt(squares) / made->mean;
-    lab_tally_count(&t[0], 0.5 * (made->low + made->high), 0.5 * (made->high - made->low), error,
-                    made->samples);
-    lab_tally_count(&t[1], 0.5 * made->high, 0.5 * made->high, error, made->samples);
+    const double error = sqrt(squares) / rendered->mean;
+    lab_tally_count(&t[0], 0.5 * (rendered->low + rendered->high), 0.5 * (rendered->high - rendered->low),
+                    error, rendered->samples);
+    lab_tally_count(&t[1], 0.5 * rendered->high, 0.5 * rendered->high, error, rendered->samples);
 }
 
 static aur_result study_images(lab_run *run, lab_tally *pooled, aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 40 : 1000;
-    static const double asked[2] = {0.0, 0.08};
+    static const double target_error[2] = {0.0, 0.08};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
-    picture *const made = malloc(2 * seeds * sizeof *made);
-    aur_result result = made == NULL
+    rendering *const rendered = malloc(2 * seeds * sizeof *rendered);
+    aur_result result = rendered == NULL
                             ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory")
                             : lab_load_scene(run, "cornell-box/cornell-box.xml", 0, NULL, &scene, error);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, error);
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
-        result = render(run, renderer, asked[i / seeds], i, &made[i], error);
+        result = render(run, renderer, target_error[i / seeds], i, &rendered[i], error);
     /* The reference is the mean over all runs; all runs have different seeds. */
     float reference[VALUES];
     double weight = 0.0;
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
-        weight += made[i].samples;
+        weight += rendered[i].samples;
     for (size_t k = 0; k < VALUES && result == AUR_OK; ++k) {
         double sum = 0.0;
         for (size_t i = 0; i < 2 * seeds; ++i)
-            sum += made[i].samples / weight * (double)made[i].values[k];
+            sum += rendered[i].samples / weight * (double)rendered[i].values[k];
         reference[k] = (float)sum;
     }
     for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
         lab_tally t[2] = {{0}, {0}};
         for (size_t i = 0; i < seeds; ++i)
-            count_image(&made[kind * seeds + i], reference, t);
-        lab_tally_report(run, "image's error", asked[kind], &t[0]);
-        lab_tally_report(run, "image's error below the end", asked[kind], &t[1]);
+            count_image(&rendered[kind * seeds + i], reference, t);
+        lab_tally_report(run, "image's error", target_error[kind], &t[0]);
+        lab_tally_report(run, "image's error below the end", target_error[kind], &t[1]);
         lab_tally_add(pooled, &t[0]);
     }
-    free(made);
+    free(rendered);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
     return result;

@@ -43,8 +43,8 @@ typedef struct study {
 static aur_result put(study *s, const char *name, const aur_image *image, aur_error *error) {
     char view[80];
     snprintf(view, sizeof view, "%s, %s", s->scene->name, s->window->name);
-    const lab_image_position place = {view, name, image == s->references[0], s->of->stops};
-    return lab_picture(s->run, &place, image, error);
+    const lab_image_position position = {view, name, image == s->references[0], s->of->stops};
+    return lab_picture(s->run, &position, image, error);
 }
 
 /* The mean square errors of a pattern; the image of the first randomisation is stored for the sheet. */
@@ -132,9 +132,9 @@ static aur_result draw_sheet(const study *s, aur_error *error) {
     }
     char name[80];
     snprintf(name, sizeof name, "sheet, %s, %s", s->scene->name, s->window->name);
-    const lab_image_position place = {.name = name};
+    const lab_image_position position = {.name = name};
     if (result == AUR_OK)
-        result = lab_picture(s->run, &place, sheet, error);
+        result = lab_picture(s->run, &position, sheet, error);
     aur_image_destroy(sheet);
     return result;
 }
@@ -202,10 +202,10 @@ static aur_result draw_whole(const study *s, aur_error *error) {
     memset(what.crop, 0, sizeof what.crop);
     what.pattern = &s->patterns[0];
     what.diffuse = what.glossy = 32;
-    const lab_image_position place = {.name = s->scene->name, .exposure = s->of->stops};
+    const lab_image_position position = {.name = s->scene->name, .exposure = s->of->stops};
     aur_result result = marques_gather(s->run, s->stage.renderer, &what, &image, error);
     if (result == AUR_OK)
-        result = lab_picture(s->run, &place, image, error);
+        result = lab_picture(s->run, &position, image, error);
     aur_image_destroy(image);
     return result != AUR_OK ? result : lab_keep(s->run, key, 1, (const double[]){1.0}, error);
 }

@@ -45,8 +45,8 @@ static aur_result need_references(study *s, aur_error *error) {
         return AUR_OK;
     const aur_result result = marques_references(s->run, s->stage.renderer, &s->form, s->reference_directions,
                                                  s->references, error);
-    const lab_image_position place = {"plates", "reference", true, 1.0};
-    return result != AUR_OK ? result : lab_picture(s->run, &place, s->references[0], error);
+    const lab_image_position position = {"plates", "reference", true, 1.0};
+    return result != AUR_OK ? result : lab_picture(s->run, &position, s->references[0], error);
 }
 
 /* Both quantities, one value per randomisation; writes the image of the first. */
@@ -69,9 +69,9 @@ static aur_result measure(study *s, const char *set, size_t directions,
             values[k] = lab_mean_product(image, s->references[0], s->references[1]);
             values[s->seeds + k] = largest_product(image, s->references[0], s->references[1]);
         }
-        const lab_image_position place = {"plates", set, .exposure = 1.0};
+        const lab_image_position position = {"plates", set, .exposure = 1.0};
         if (result == AUR_OK && k == 0 && directions == SHOWN)
-            result = lab_picture(s->run, &place, image, error);
+            result = lab_picture(s->run, &position, image, error);
         aur_image_destroy(image);
     }
     return result != AUR_OK ? result : lab_keep(s->run, key, QUANTITIES * s->seeds, values, error);
@@ -84,16 +84,16 @@ static aur_result compare(study *s, const char *set, bool is_published, size_t d
     if (result != AUR_OK)
         return result;
     for (size_t q = 0; q < QUANTITIES; ++q) {
-        const double *const of_base = &base[q * s->seeds], *const own = &values[q * s->seeds];
-        lab_interval r = lab_root_ratio(s->seeds, own, s->seeds, of_base);
+        const double *const of_base = &base[q * s->seeds], *const of_set = &values[q * s->seeds];
+        lab_interval r = lab_root_ratio(s->seeds, of_set, s->seeds, of_base);
         const bool root = q == 0;
         const double base_value = lab_root_mean(s->seeds, of_base).value;
-        const double own_value = lab_root_mean(s->seeds, own).value;
+        const double set_value = lab_root_mean(s->seeds, of_set).value;
         if (!root)
             r = (lab_interval){r.value * r.value, r.low * r.low, r.high * r.high};
         lab_row(s->run, (const char *const[]){set, quantities[q], NULL}, 7,
                 (const double[]){(double)directions, root ? base_value : base_value * base_value,
-                                 root ? own_value : own_value * own_value, r.value, r.low, r.high,
+                                 root ? set_value : set_value * set_value, r.value, r.low, r.high,
                                  is_published && !lab_run_options(s->run)->quick ? published[q] : NAN});
     }
     return AUR_OK;

@@ -64,11 +64,11 @@ static void draw(const sheet *s, const view *v, const aur_points_view *points) {
 }
 
 static aur_result add_view(sheet *s, const marques_pattern *pattern, aur_domain domain, aur_error *error) {
-    aur_points *made;
-    const aur_result result = marques_points(pattern, domain, s->count, 0, &made, error);
+    aur_points *generated;
+    const aur_result result = marques_points(pattern, domain, s->count, 0, &generated, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view points = *aur_points_get_view(made);
+    const aur_points_view points = *aur_points_get_view(generated);
     view *const v = &s->views[s->view_count++];
     *v = (view){.set = pattern->set,
                 .projection = domain == AUR_DOMAIN_SQUARE ? "square" : pattern->label,
@@ -82,7 +82,7 @@ static aur_result add_view(sheet *s, const marques_pattern *pattern, aur_domain 
     }
     v->spread = sqrt(fmax(0.0, squares - v->mean * v->mean)) / v->mean;
     draw(s, v, &points);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     lab_row(s->run, (const char *const[]){v->set, v->projection, NULL}, 4,
             (const double[]){(double)s->count, v->least, v->mean, v->spread});
     return AUR_OK;

@@ -63,9 +63,9 @@ static aur_result need_reference(gather_study *study, const char *component, aur
                                                study->reference_directions, 0, &study->reference, error);
     if (result != AUR_OK)
         return result;
-    const lab_image_position place = {
+    const lab_image_position position = {
         .view = component, .name = "reference", .reference = true, .exposure = 1.0};
-    return lab_picture(study->run, &place, study->reference, error);
+    return lab_picture(study->run, &position, study->reference, error);
 }
 
 /* Mean square errors of one pattern, one value per scramble; writes the image of the first. */
@@ -85,8 +85,8 @@ static aur_result measure(gather_study *study, const char *component, const char
         if (result == AUR_OK)
             mse[k] = value[3];
         if (result == AUR_OK && k == 0 && directions == 64) {
-            const lab_image_position place = {.view = component, .name = set, .exposure = 1.0};
-            result = lab_picture(study->run, &place, image, error);
+            const lab_image_position position = {.view = component, .name = set, .exposure = 1.0};
+            result = lab_picture(study->run, &position, image, error);
         }
         aur_image_destroy(image);
     }
@@ -143,25 +143,25 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
     if (!lab_recall(study->run, "bias", VALUES, values)) {
         char integrator[96];
         snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", study->photons);
-        aur_image *pictures[2] = {NULL}, *small[2] = {NULL};
-        static const lab_image_position places[2] = {{"whole light", "finalgather", .exposure = 0.5},
-                                                     {"whole light", "path", true, 0.5}};
-        aur_result result = render(study, integrator, study->path_samples / 4, 1, &pictures[0], error);
+        aur_image *images[2] = {NULL}, *small[2] = {NULL};
+        static const lab_image_position positions[2] = {{"whole light", "finalgather", .exposure = 0.5},
+                                                        {"whole light", "path", true, 0.5}};
+        aur_result result = render(study, integrator, study->path_samples / 4, 1, &images[0], error);
         if (result == AUR_OK)
-            result = render(study, "path", study->path_samples, 2, &pictures[1], error);
+            result = render(study, "path", study->path_samples, 2, &images[1], error);
         for (size_t i = 0; i < 2 && result == AUR_OK; ++i) {
-            result = lab_picture(study->run, &places[i], pictures[i], error);
+            result = lab_picture(study->run, &positions[i], images[i], error);
             if (result == AUR_OK)
-                result = aur_image_mean(pictures[i], mean, error);
+                result = aur_image_mean(images[i], mean, error);
             values[GATHERED + i] = mean[3];
             if (result == AUR_OK)
-                result = aur_image_downsample(pictures[i], 8, &small[i], error);
+                result = aur_image_downsample(images[i], 8, &small[i], error);
         }
         if (result == AUR_OK)
             result = aur_image_compare(small[1], small[0], AUR_IMAGE_RMSE, mean, error);
         values[RMSE] = mean[3];
         for (size_t i = 0; i < 2; ++i) {
-            aur_image_destroy(pictures[i]);
+            aur_image_destroy(images[i]);
             aur_image_destroy(small[i]);
         }
         if (result == AUR_OK)

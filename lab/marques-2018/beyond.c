@@ -188,8 +188,8 @@ static aur_result one_angle(const table_study *t, double radians, size_t rotatio
         visible += !t->clipped || xyz[3 * i + 2] >= 0.0;
     for (size_t way = 0; way < WAYS && result == AUR_OK; ++way) {
         for (size_t i = 0; i < ALL; ++i) {
-            const bool own = i >= DIFFUSE && (!t->clipped || xyz[3 * i + 2] >= 0.0);
-            const double plain = own ? 1.0 / (double)visible : 0.0;
+            const bool counts = i >= DIFFUSE && (!t->clipped || xyz[3 * i + 2] >= 0.0);
+            const double plain = counts ? 1.0 / (double)visible : 0.0;
             weights[i] = way == PLAIN ? plain : way == SOLVED ? solved[ALL + i] : (double)looked_up[i];
         }
         result = aur_worst_case_error(ALL, xyz, weights, lobe, NULL, &errors[way], error);

@@ -121,13 +121,13 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
         if (result != AUR_OK)
             break;
         const aur_potential *const one = potential;
-        double *const own = r->weights[k] + first[k];
+        double *const lobe_weights = r->weights[k] + first[k];
         size_t seen = 0;
         for (size_t i = first[k]; i < first[k] + count[k]; ++i)
             seen += m != SCALED || r->xyz[3 * i + 2] >= 0.0;
         if (m == OSW)
-            result = aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, count[k], own, NULL,
-                                       NULL, error);
+            result = aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, count[k], lobe_weights,
+                                       NULL, NULL, error);
         else if (m == OPTIMAL_MIS || m == SQUARES || m == CUBES)
             result = lab_control_weights(
                 &(lab_control){.basis = m == OPTIMAL_MIS ? LAB_CONTROL_DENSITIES : LAB_CONTROL_POLYNOMIALS,
@@ -144,7 +144,7 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
                                      DIFFUSE + GLOSSY, r->xyz, r->weights[k], error);
         else
             for (size_t i = 0; i < count[k]; ++i)
-                own[i] = 1.0 / (double)seen;
+                lobe_weights[i] = 1.0 / (double)seen;
         aur_potential_destroy(potential);
     }
     return result;

@@ -98,11 +98,11 @@ static aur_result study_set(lab_run *run, const char *set, const aur_potential *
         /* The interval is for one scrambling, as the published figure is. */
         const double mean = moments[i].mean, spread = sqrt(aur_moments_variance(&moments[i]));
         const double half = NORMAL_95 * spread;
-        const bool known = strcmp(set, "sobol") == 0 && published[i] > 0.0;
+        const bool is_published = strcmp(set, "sobol") == 0 && published[i] > 0.0;
         lab_row(run, (const char *const[]){set, names[i], NULL}, 10,
                 (const double[]){(double)seeds, mean, spread, mean - half, mean + half,
-                                 known ? published[i] : NAN, ratio_of(mean), ratio_of(mean + half),
-                                 ratio_of(mean - half), known ? ratio_of(published[i]) : NAN});
+                                 is_published ? published[i] : NAN, ratio_of(mean), ratio_of(mean + half),
+                                 ratio_of(mean - half), is_published ? ratio_of(published[i]) : NAN});
     }
     lab_note(run,
              "%s: OSW gains %.1f +- %.1f and %.1f +- %.1f %% (published 7.0, 6.3); OSWA %.1f and %.1f %% "

@@ -133,15 +133,16 @@ static aur_result two_lobes(const study *s, rule which, uint64_t seed, samples *
     if (result == AUR_OK && which == MERGED)
         result = aur_oswa_solve(s->pair, s->radians, turns, 2 * ALL, found, NULL, error);
     for (size_t k = 0; k < 2 && result == AUR_OK && which != MERGED; ++k) {
-        double *const own = found + k * ALL;
+        double *const lobe_weights = found + k * ALL;
         if (which == BALANCE)
-            result = aur_mis_weights(AUR_MIS_BALANCE, 2, strategies, potentials[k], ALL, r->xyz, own, error);
+            result = aur_mis_weights(AUR_MIS_BALANCE, 2, strategies, potentials[k], ALL, r->xyz, lobe_weights,
+                                     error);
         else if (which == SEPARATELY_OPTIMAL)
             result = aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &potentials[k], NULL, count[k],
-                                       own + first[k], NULL, NULL, error);
+                                       lobe_weights + first[k], NULL, NULL, error);
         else
             for (size_t i = first[k]; i < first[k] + count[k]; ++i)
-                own[i] = k == 0 ? 1.0 / DIFFUSE : ratio(s, r->xyz + 3 * i) / (s->mass * GLOSSY);
+                lobe_weights[i] = k == 0 ? 1.0 / DIFFUSE : ratio(s, r->xyz + 3 * i) / (s->mass * GLOSSY);
     }
     /* The cosine lobe's mass is taken as 1, that is, its surface reflects all light. */
     for (size_t i = 0; i < ALL; ++i)

@@ -72,7 +72,7 @@ static double ratio(const lab_lobes *of, size_t k, const double u[3]) {
 
 aur_result lab_lobes_weigh(const lab_lobes *of, lab_lobe_method how, const double *xyz, double *weights,
                            aur_error *error) {
-    double own[LAB_MOST_LOBES * LAB_MOST_SAMPLES] = {0.0};
+    double solved[LAB_MOST_LOBES * LAB_MOST_SAMPLES] = {0.0};
     aur_strategy strategies[LAB_MOST_LOBES];
     const aur_potential *potentials[LAB_MOST_LOBES];
     for (size_t k = 0; k < of->count; ++k) {
@@ -83,11 +83,11 @@ aur_result lab_lobes_weigh(const lab_lobes *of, lab_lobe_method how, const doubl
     }
     aur_result result = AUR_OK;
     if (how == LAB_OSWA)
-        result = aur_weights_solve(of->all, xyz, of->count, potentials, NULL, of->count * of->all, own, NULL,
-                                   NULL, error);
+        result = aur_weights_solve(of->all, xyz, of->count, potentials, NULL, of->count * of->all, solved,
+                                   NULL, NULL, error);
     for (size_t k = 0, first = 0; k < of->count && result == AUR_OK && how != LAB_OSWA;
          first += of->counts[k++]) {
-        double *const w = own + k * of->all;
+        double *const w = solved + k * of->all;
         if (how == LAB_OSW)
             result = aur_weights_solve(of->counts[k], xyz + 3 * first, 1, &potentials[k], NULL, of->counts[k],
                                        w + first, NULL, NULL, error);
@@ -101,7 +101,7 @@ aur_result lab_lobes_weigh(const lab_lobes *of, lab_lobe_method how, const doubl
     for (size_t i = 0; i < of->all; ++i) {
         weights[i] = 0.0;
         for (size_t k = 0; k < of->count; ++k)
-            weights[i] += own[k * of->all + i];
+            weights[i] += solved[k * of->all + i];
     }
     return result;
 }

@@ -11,7 +11,7 @@ static const char *const columns[] = {
 
 typedef struct choice {
     const char *set;
-    double exponent, made_for, judged_at, regularization;
+    double exponent, solved_for, judged_at, regularization;
 } choice;
 
 /* The gain in percent over equal weights, by root mean squares over seeds. */
@@ -19,16 +19,16 @@ static aur_result add_row(lab_run *run, const choice *c, double *gain, aur_error
     const size_t seeds = lab_run_options(run)->quick ? 8 : 100;
     const aur_weights_options options = {.size = sizeof options, .regularization = c->regularization};
     aur_potential *maker = NULL, *judge = NULL;
-    aur_result result = lab_lobe_potential(c->exponent, c->made_for, &maker, error);
+    aur_result result = lab_lobe_potential(c->exponent, c->solved_for, &maker, error);
     if (result == AUR_OK)
         result = lab_lobe_potential(c->exponent, c->judged_at, &judge, error);
-    const aur_potential *const made = maker;
+    const aur_potential *const solved = maker;
     double equal = 0.0, weighted = 0.0;
     for (uint64_t seed = 0; seed < seeds && result == AUR_OK; ++seed) {
         double xyz[3 * COUNT], weights[COUNT], plain, optimal;
         result = lab_draw(&(lab_samples){c->set, COUNT, c->exponent, 0, seed}, xyz, NULL, error);
         if (result == AUR_OK)
-            result = aur_weights_solve(COUNT, xyz, 1, &made, &options, COUNT, weights, NULL, NULL, error);
+            result = aur_weights_solve(COUNT, xyz, 1, &solved, &options, COUNT, weights, NULL, NULL, error);
         if (result == AUR_OK)
             result = aur_worst_case_error(COUNT, xyz, NULL, judge, NULL, &plain, error);
         if (result == AUR_OK)
@@ -41,7 +41,7 @@ static aur_result add_row(lab_run *run, const choice *c, double *gain, aur_error
     if (result == AUR_OK) {
         lab_text(run, c->set);
         lab_number(run, c->exponent);
-        lab_number(run, c->made_for);
+        lab_number(run, c->solved_for);
         lab_number(run, c->judged_at);
         lab_number(run, c->regularization);
         *gain = 100.0 * (1.0 - sqrt(weighted / equal));
@@ -62,22 +62,22 @@ static aur_result vary_smoothness(lab_run *run, const char *set, report_table *d
     double gains[SMOOTHNESSES][SMOOTHNESSES] = {{0}}, lost[SMOOTHNESSES] = {0};
     size_t best = 0, published = 2;
     for (size_t judged = 0; judged < SMOOTHNESSES; judged += 2) {
-        for (size_t made = 0; made < SMOOTHNESSES; ++made) {
-            const choice c = {set, 20.0, smoothness[made], smoothness[judged], AUR_REGULARIZATION_DEFAULT};
-            const aur_result result = add_row(run, &c, &gains[made][judged], error);
+        for (size_t solved = 0; solved < SMOOTHNESSES; ++solved) {
+            const choice c = {set, 20.0, smoothness[solved], smoothness[judged], AUR_REGULARIZATION_DEFAULT};
+            const aur_result result = add_row(run, &c, &gains[solved][judged], error);
             if (result != AUR_OK)
                 return result;
             lab_table_row(drawn, (const char *const[]){set, NULL}, 3,
-                          (const double[]){c.made_for, c.judged_at, gains[made][judged]});
+                          (const double[]){c.solved_for, c.judged_at, gains[solved][judged]});
         }
         double most = gains[0][judged];
-        for (size_t made = 1; made < SMOOTHNESSES; ++made)
-            most = fmax(most, gains[made][judged]);
-        for (size_t made = 0; made < SMOOTHNESSES; ++made)
-            lost[made] = fmax(lost[made], most - gains[made][judged]);
+        for (size_t solved = 1; solved < SMOOTHNESSES; ++solved)
+            most = fmax(most, gains[solved][judged]);
+        for (size_t solved = 0; solved < SMOOTHNESSES; ++solved)
+            lost[solved] = fmax(lost[solved], most - gains[solved][judged]);
     }
-    for (size_t made = 1; made < SMOOTHNESSES; ++made)
-        best = lost[made] < lost[best] ? made : best;
+    for (size_t solved = 1; solved < SMOOTHNESSES; ++solved)
+        best = lost[solved] < lost[best] ? solved : best;
     lab_note(
         run,
         "%s: weights made for s = 1.5 gain %.1f, %.1f and %.1f %% at s = 1.1, 1.5 and 1.9, at most %.1f "

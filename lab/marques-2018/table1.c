@@ -90,14 +90,14 @@ static void add_row(const image_study *study, const char *set, way which, const 
     const lab_interval rmse = lab_root_mean(study->scrambles, mse);
     const lab_interval ratio = lab_root_ratio_paired(study->scrambles, mse, base);
     const lab_interval one = lab_gather_one_set(study->scrambles, mse, base);
-    const double known = published_ratio(study->subject, set, which);
+    const double published_value = published_ratio(study->subject, set, which);
     char directions[32];
     snprintf(directions, sizeof directions, "%zu+%zu", study->subject->directions[0],
              study->subject->directions[1]);
     lab_row(study->run, (const char *const[]){study->subject->name, set, directions, ways[which].name, NULL},
             10,
             (const double[]){rmse.value, rmse.low, rmse.high, ratio.value, ratio.low, ratio.high, one.low,
-                             one.high, sqrt(picture), known != 0.0 ? known : NAN});
+                             one.high, sqrt(picture), published_value != 0.0 ? published_value : NAN});
 }
 
 /* One scrambling; writes the image of the first. */
@@ -111,9 +111,9 @@ static aur_result measure_one(image_study *study, const char *set, way w, size_t
     if (result == AUR_OK && scramble == 0) {
         char view[160];
         snprintf(view, sizeof view, "%s, %.80s", study->subject->name, set);
-        const lab_image_position place = {.view = view, .name = ways[w].name, .exposure = 1.0};
+        const lab_image_position position = {.view = view, .name = ways[w].name, .exposure = 1.0};
         const lab_image_position truth = {view, "reference", true, 1.0};
-        result = lab_picture(study->run, &place, image, error);
+        result = lab_picture(study->run, &position, image, error);
         if (result == AUR_OK && w == OSWA)
             result = lab_picture(study->run, &truth, study->gather.reference, error);
     }

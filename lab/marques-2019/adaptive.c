@@ -23,12 +23,12 @@ const adaptive_lobe adaptive_lobes[2] = {
 
 /* Mean number of directions per gather, as published. */
 static double published_mean(const adaptive_lobe *lobe) {
-    double directions = 0.0, places = 0.0, size = (double)lobe->first;
+    double directions = 0.0, point_count = 0.0, size = (double)lobe->first;
     for (size_t l = 0; l < 3; ++l, size *= 4.0) {
         directions += size * lobe->published[l];
-        places += lobe->published[l];
+        point_count += lobe->published[l];
     }
-    return directions / places;
+    return directions / point_count;
 }
 
 /* The threshold at which a gather takes `target` directions on average; the number decreases with the
@@ -93,12 +93,12 @@ static aur_result study_published(adaptive_study *study, const char *criterion, 
         result = adaptive_measure(study, &way, &found, error);
     if (result != AUR_OK)
         return result;
-    const double places = lobe->published[0] + lobe->published[1] + lobe->published[2];
+    const double point_count = lobe->published[0] + lobe->published[1] + lobe->published[2];
     lab_note(study->run, "%s, %s: threshold %.4g is fitted to the published %.1f directions per gather",
              lobe->name, criterion, way.threshold, published_mean(lobe));
     add_row(study, &way, "directions per gather", found.mean, NAN);
     for (size_t l = 0; l < 3; ++l)
-        add_row(study, &way, what[l], found.shares[l], lobe->published[l] / places);
+        add_row(study, &way, what[l], found.shares[l], lobe->published[l] / point_count);
     add_way(study, &way, table, &found, &ratio);
     lab_claim(study->run, ratio.high < 1.0,
               "fig. 12, %s, %s: saves directions at equal error (takes %.2f [%.2f, %.2f] times those of "
@@ -132,9 +132,9 @@ static aur_result study_darkness(adaptive_study *study, aur_error *error) {
 }
 
 static aur_result study_lobe(adaptive_study *study, report_table *table, aur_error *error) {
-    const char *const own = lab_run_options(study->run)->set;
+    const char *const given_set = lab_run_options(study->run)->set;
     const adaptive_way others[] = {
-        {"variance", 4, 2, 0.03, "sobol"}, {"variance", 4, 2, 0.03, own},
+        {"variance", 4, 2, 0.03, "sobol"}, {"variance", 4, 2, 0.03, given_set},
         {"entropy", 4, 2, 0.1, NULL},      {"entropy", 4, 2, 0.2, NULL},
         {"entropy", 4, 2, 0.3, NULL},      {"entropy", 2, 4, 0.3, NULL},
         {"variance", 4, 2, 0.02, NULL},    {"variance", 4, 2, 0.03, NULL},
@@ -149,12 +149,12 @@ static aur_result study_lobe(adaptive_study *study, report_table *table, aur_err
     for (size_t i = 0; i < (study->quick ? 2 : sizeof others / sizeof others[0]) && result == AUR_OK; ++i) {
         adaptive_found found;
         lab_interval ratio;
-        if (i == 1 && own == NULL)
+        if (i == 1 && given_set == NULL)
             continue;
         result = adaptive_measure(study, &others[i], &found, error);
         if (result == AUR_OK)
             add_way(study, &others[i], table, &found, &ratio);
-        result = i == 1 ? lab_forgive(study->run, own, result, error) : result;
+        result = i == 1 ? lab_forgive(study->run, given_set, result, error) : result;
     }
     if (result == AUR_OK)
         result = study_darkness(study, error);

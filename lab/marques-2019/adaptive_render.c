@@ -37,19 +37,19 @@ void adaptive_count(const adaptive_study *study, const adaptive_way *way, const 
     const size_t channels = aur_image_channel_count(image), at = aur_image_find_channel(image, "directions");
     const size_t pixels = aur_image_width(image) * aur_image_height(image);
     const float *const data = aur_image_data(image);
-    size_t places = 0;
+    size_t point_count = 0;
     *counts = (adaptive_counts){0};
     for (size_t i = 0; i < pixels && at != SIZE_MAX; ++i) {
         const double directions = (double)data[i * channels + at];
         if (directions < 1.0) /* no pixel gathers */
             continue;
-        ++places;
+        ++point_count;
         counts->mean += directions;
         double end = (double)study->lobe->first;
         for (size_t l = 0; l < 3; ++l, end *= (double)way->factor)
             counts->shares[l] += directions == end;
     }
-    const double all = fmax(1.0, (double)places);
+    const double all = fmax(1.0, (double)point_count);
     counts->mean /= all;
     for (size_t l = 0; l < 3; ++l)
         counts->shares[l] /= all;
@@ -174,10 +174,10 @@ static aur_result draw_one(const adaptive_study *study, const adaptive_way *way,
     aur_result result = adaptive_render(study, way, 1, true, &image, error);
     if (result == AUR_OK && way->criterion != NULL)
         result = draw_map(study, way, image, error);
-    const lab_image_position place = {
+    const lab_image_position position = {
         .view = study->lobe->name, .name = name, .reference = reference, .exposure = 1.0};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &place, image, error);
+        result = lab_picture(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }

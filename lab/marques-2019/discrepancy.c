@@ -58,24 +58,24 @@ static void add_rows(lab_run *run, report_table *slopes, const char *set, size_t
 
 /* The claims of sections 5.3 and 6.1 for the grid with the paper's first shift, and with the library's. */
 static void judge(lab_run *run, size_t grid, size_t count, double scd[SETS][SIZES]) {
-    const double *const own = scd[grid], *const fibonacci = scd[0];
+    const double *const of_grid = scd[grid], *const fibonacci = scd[0];
     double most = 0.0, doubled = 0.0, line = 0.0;
     size_t below = 0, compared = 0;
     bool steeper = true;
     for (size_t k = 0; k < count; ++k) {
-        const double over = 100.0 * (own[k] / fibonacci[k] - 1.0);
+        const double over = 100.0 * (of_grid[k] / fibonacci[k] - 1.0);
         if (k % 2 == 0)
             most = fmax(most, over);
         else {
             doubled = fmax(doubled, over);
-            line = fmax(line, 100.0 * (own[k] / sqrt(own[k - 1] * own[k + 1]) - 1.0));
+            line = fmax(line, 100.0 * (of_grid[k] / sqrt(of_grid[k - 1] * of_grid[k + 1]) - 1.0));
         }
         for (size_t r = FIRST_CANDIDATE; r < SETS; ++r, ++compared)
-            below += own[k] < scd[r][k];
+            below += of_grid[k] < scd[r][k];
     }
     for (size_t r = FIRST_CANDIDATE; r < SETS; ++r)
-        steeper = steeper && slope_of(count, own).value < slope_of(count, scd[r]).value;
-    const double slope = slope_of(count, own).value;
+        steeper = steeper && slope_of(count, of_grid).value < slope_of(count, scd[r]).value;
+    const double slope = slope_of(count, of_grid).value;
     lab_note(run, "%s:", sets[grid]);
     lab_claim(run, most < 10.0,
               "6.1: quadrupled, the same as spherical Fibonacci within 10 %% (at most %.1f %% above)", most);

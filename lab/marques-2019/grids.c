@@ -139,28 +139,28 @@ static aur_result run(lab_run *run, aur_error *error) {
     report_table *const table = lab_table(run, "points", of_points);
     const char *const added = lab_run_options(run)->set;
     const shown mine[] = {{added, 64, "added"}, {added, 256, "added"}, {added, 1024, "added"}};
-    aur_points *made[GRIDS] = {NULL};
+    aur_points *generated[GRIDS] = {NULL};
     double uneven[GRIDS], unused;
     bool all_preserved = true;
     aur_result result = AUR_OK;
     for (size_t g = 0; g < GRIDS && result == AUR_OK; ++g) {
         result = lab_points_make(
-            &(lab_points){.set = grids[g].set, .domain = AUR_DOMAIN_SPHERE, .size = grids[g].size}, &made[g],
-            error);
+            &(lab_points){.set = grids[g].set, .domain = AUR_DOMAIN_SPHERE, .size = grids[g].size},
+            &generated[g], error);
         if (result != AUR_OK)
             break;
         const bool extended = g > 0 && grids[g].set == grids[g - 1].set;
         const size_t same =
-            extended ? store(aur_points_get_view(made[g]), aur_points_get_view(made[g - 1])) : 0;
+            extended ? store(aur_points_get_view(generated[g]), aur_points_get_view(generated[g - 1])) : 0;
         all_preserved = all_preserved && (!extended || same == grids[g - 1].size);
-        result = add_row(run, &grids[g], aur_points_get_view(made[g]), same, &uneven[g], error);
+        result = add_row(run, &grids[g], aur_points_get_view(generated[g]), same, &uneven[g], error);
         if (result == AUR_OK)
-            result = show(run, &grids[g], aur_points_get_view(made[g]), table, error);
+            result = show(run, &grids[g], aur_points_get_view(generated[g]), table, error);
     }
     if (result == AUR_OK)
         judge(run, uneven, all_preserved);
     for (size_t g = 0; g < GRIDS; ++g)
-        aur_points_destroy(made[g]);
+        aur_points_destroy(generated[g]);
     for (size_t g = 0; g < 3 && added != NULL && result == AUR_OK; ++g) {
         aur_points *points = NULL;
         result = lab_points_make(

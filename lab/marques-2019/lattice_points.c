@@ -9,18 +9,18 @@
 
 /* The points of a set of the sphere in the plane, as u, v pairs; the caller frees them. */
 static aur_result to_plane(const char *set, size_t size, double **plane, aur_error *error) {
-    aur_points *made;
-    const aur_result result =
-        lab_points_make(&(lab_points){.set = set, .domain = AUR_DOMAIN_SPHERE, .size = size}, &made, error);
+    aur_points *generated;
+    const aur_result result = lab_points_make(
+        &(lab_points){.set = set, .domain = AUR_DOMAIN_SPHERE, .size = size}, &generated, error);
     *plane = NULL;
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const points = aur_points_get_view(made);
+    const aur_points_view *const points = aur_points_get_view(generated);
     *plane = malloc(2 * size * sizeof **plane);
     for (size_t i = 0; i < size && *plane != NULL; ++i)
         aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, points->coordinates + points->stride * i,
                          *plane + 2 * i, NULL);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     if (*plane != NULL)
         return AUR_OK;
     *error = (aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"};
@@ -142,13 +142,13 @@ static aur_result check_cells(lab_run *run, aur_error *error) {
         "fig. 4", "the cells of 1000 points have five to seven sides, within 60 degrees of the equator", 5.0,
         7.0);
     lattice_check areas = lattice_begin("sec. 4.2", "and the mean area, within 2 %", 0.98, 1.02);
-    aur_points *made;
+    aur_points *generated;
     aur_series *cells = NULL;
     const lab_points grid = {.set = "spherical-fibonacci", .domain = AUR_DOMAIN_SPHERE, .size = 1000};
-    aur_result result = lab_points_make(&grid, &made, error);
+    aur_result result = lab_points_make(&grid, &generated, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const points = aur_points_get_view(made);
+    const aur_points_view *const points = aur_points_get_view(generated);
     result = aur_measure_series("voronoi", points, NULL, &cells, error);
     for (size_t i = 0; result == AUR_OK && i < points->count; ++i) {
         const double *const cell = aur_series_values(cells) + i * aur_series_column_count(cells);
@@ -159,7 +159,7 @@ static aur_result check_cells(lab_run *run, aur_error *error) {
         six += cell[3] == 6.0;
     }
     aur_series_destroy(cells);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     if (result == AUR_OK) {
         lattice_end(run, &sides);
         lattice_end(run, &areas);

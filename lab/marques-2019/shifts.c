@@ -55,16 +55,16 @@ static aur_result survey(lab_run *run, report_table *table, aur_domain domain, a
     size_t best = 0, grids = 0, worst = 0;
     double mean = 0.0, most = 0.0;
     for (size_t base = FIRST_BASE; base <= last; ++base, ++grids) {
-        double own, least;
-        aur_result result =
-            discrepancy(run, "levels=1,shift=final,first-shift=paper", base, 2 * base, domain, &own, error);
+        double published, least;
+        aur_result result = discrepancy(run, "levels=1,shift=final,first-shift=paper", base, 2 * base, domain,
+                                        &published, error);
         if (result == AUR_OK)
             result = discrepancy(run, "levels=1,shift=final,first-shift=best", base, 2 * base, domain, &least,
                                  error);
         if (result != AUR_OK)
             return result;
-        const double percent = 100.0 * (own / least - 1.0);
-        best += own <= least;
+        const double percent = 100.0 * (published / least - 1.0);
+        best += published <= least;
         mean += percent;
         if (percent > most) {
             most = percent;

@@ -97,10 +97,10 @@ static aur_result draw(const statue_study *study, const char *set, size_t diffus
                        bool reference, aur_error *error) {
     aur_image *image = NULL;
     aur_result result = render(study, set, diffuse, glossy, 1, true, &image, error);
-    const lab_image_position place = {
+    const lab_image_position position = {
         .view = "fig. 10", .name = reference ? "reference" : set, .reference = reference};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &place, image, error);
+        result = lab_picture(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }
@@ -166,12 +166,12 @@ static aur_result study_lobe(statue_study *study, const char *lobe, report_table
     for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s) {
         for (size_t k = 0; k < study->sizes && result == AUR_OK; ++k) {
             const size_t n = (size_t)FIRST << k;
-            double *const own = s == 0 ? base[k] : mse;
+            double *const errors_of_set = s == 0 ? base[k] : mse;
             sizes[k] = (double)n;
-            result = measure(study, study->sets[s], n, n, own, error);
+            result = measure(study, study->sets[s], n, n, errors_of_set, error);
             if (result == AUR_OK)
-                errors[s][k] =
-                    add_row(study, "11", study->sets[s], k % 2 == 1 ? "x2" : "x4", n, own, base[k], NAN);
+                errors[s][k] = add_row(study, "11", study->sets[s], k % 2 == 1 ? "x2" : "x4", n,
+                                       errors_of_set, base[k], NAN);
         }
         if (result == AUR_OK) {
             const lab_interval slope = lab_slope(study->sizes, sizes, errors[s]);

@@ -91,9 +91,9 @@ static aur_result draw(const occlusion_study *study, const occlusion_form *form,
     aur_image *image = NULL;
     name_view(form, view);
     aur_result result = render(study, form, study->image_width, study->image_height, 1, &image, error);
-    const lab_image_position place = {.view = view, .name = form->set->name};
+    const lab_image_position position = {.view = view, .name = form->set->name};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &place, image, error);
+        result = lab_picture(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }
@@ -159,8 +159,8 @@ static aur_result draw_references(const occlusion_study *study, const size_t cou
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
         char view[64];
         name_view(&(occlusion_form){.samples = counts[i / 2], .each_pixel = i % 2 == 0}, view);
-        const lab_image_position place = {.view = view, .name = "reference", .reference = true};
-        result = lab_picture(study->run, &place, picture, error);
+        const lab_image_position position = {.view = view, .name = "reference", .reference = true};
+        result = lab_picture(study->run, &position, picture, error);
     }
     aur_image_destroy(picture);
     return result != AUR_OK ? result : lab_keep(study->run, "references", 1, (const double[]){1.0}, error);

@@ -39,13 +39,13 @@ static aur_result show(lab_run *run, report_table *table, const char *figure, co
                                 .domain = polar ? AUR_DOMAIN_DISK : AUR_DOMAIN_SQUARE,
                                 .size = size,
                                 .map = polar ? AUR_MAP_POLAR : AUR_MAP_LAMBERT};
-    aur_points *made;
+    aur_points *generated;
     aur_image *image;
-    aur_result result = lab_points_make(&request, &made, error);
+    aur_result result = lab_points_make(&request, &generated, error);
     if (result != AUR_OK)
         return result;
     result = lab_canvas(SIDE, SIDE, &image, error);
-    const aur_points_view *const points = aur_points_get_view(made);
+    const aur_points_view *const points = aur_points_get_view(generated);
     const char *const coordinates = polar ? "polar" : "Cartesian";
     for (size_t i = 0; i < points->count && result == AUR_OK; ++i) {
         const double *const x = points->coordinates + points->stride * i;
@@ -58,7 +58,7 @@ static aur_result show(lab_run *run, report_table *table, const char *figure, co
     if (result == AUR_OK)
         result = lab_picture(run, &(lab_image_position){.view = view, .name = set}, image, error);
     aur_image_destroy(image);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     return result;
 }
 

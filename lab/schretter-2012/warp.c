@@ -83,15 +83,15 @@ static double largest_difference(const warp_study *study, size_t count, const do
 
 static aur_result warp(const warp_study *study, const char *set, size_t count, double *warped,
                        aur_error *error) {
-    aur_points *made;
-    const aur_result result =
-        lab_points_make(&(lab_points){.set = set, .domain = AUR_DOMAIN_SQUARE, .size = count}, &made, error);
+    aur_points *generated;
+    const aur_result result = lab_points_make(
+        &(lab_points){.set = set, .domain = AUR_DOMAIN_SQUARE, .size = count}, &generated, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const points = aur_points_get_view(made);
+    const aur_points_view *const points = aur_points_get_view(generated);
     for (size_t i = 0; i < count; ++i)
         aur_density_image_warp(study->density, points->coordinates + points->stride * i, warped + 2 * i);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     return AUR_OK;
 }
 
@@ -110,8 +110,8 @@ static aur_result draw(const warp_study *study, const char *set, size_t count, c
     }
     for (size_t i = 0; i < count && set != NULL; ++i)
         lab_dot(image, warped[2 * i] * SIDE, (1.0 - warped[2 * i + 1]) * SIDE, 2.5, lab_colour(0));
-    const lab_image_position place = {.view = study->subject->name, .name = set != NULL ? set : "density"};
-    result = lab_picture(study->run, &place, image, error);
+    const lab_image_position position = {.view = study->subject->name, .name = set != NULL ? set : "density"};
+    result = lab_picture(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }

@@ -179,8 +179,8 @@ static void add_tube(group *g, const newell *teapot, size_t tube, size_t around,
         }
     for (size_t i = 0; i < along; ++i)
         for (size_t k = 0; k < around; ++k) {
-            const size_t here = first + i * around, next = here + around, beside = (k + 1) % around;
-            add_quad(g, here + k, next + k, next + beside, here + beside);
+            const size_t here = first + i * around, next = here + around, next_around = (k + 1) % around;
+            add_quad(g, here + k, next + k, next + next_around, here + next_around);
         }
     const size_t last = first + along * around;
     for (size_t k = 1; k + 1 < around; ++k) {

@@ -57,7 +57,7 @@ static double handle_radius(const void *context, double u) {
     return 0.0175 + 0.007 * (2.0 * u - 1.0) * (2.0 * u - 1.0);
 }
 
-static void add_cup(mesh *m, double angle, vec place) {
+static void add_cup(mesh *m, double angle, vec position) {
     const size_t first = m->vertex_count;
     const profile cup = {COUNT(cup_profile), cup_profile}, saucer = {COUNT(saucer_profile), saucer_profile};
     const tube handle = {.curve = cup_handle, .radius = handle_radius, .rows = 56, .columns = 24};
@@ -67,7 +67,7 @@ static void add_cup(mesh *m, double angle, vec place) {
     const size_t below = m->vertex_count;
     mesh_revolve(m, &saucer, 72, 128);
     mesh_place(m, below, 0.95, 0.0, (vec){0});
-    mesh_place(m, first, 1.0, 0.0, place);
+    mesh_place(m, first, 1.0, 0.0, position);
 }
 
 static void build_cups(mesh *m) {
@@ -80,11 +80,11 @@ static const double tea_profile[][2] = {{0.0, 0.0},      {0.155, 0.0},   {0.175,
 
 static void build_tea(mesh *m) {
     const profile tea = {COUNT(tea_profile), tea_profile};
-    static const vec places[2] = {{0.28, 0.205, 0.44}, {1.20, 0.205, 0.26}};
+    static const vec positions[2] = {{0.28, 0.205, 0.44}, {1.20, 0.205, 0.26}};
     for (size_t i = 0; i < 2; ++i) {
         const size_t first = m->vertex_count;
         mesh_revolve(m, &tea, 24, 96);
-        mesh_place(m, first, 1.0, 0.0, places[i]);
+        mesh_place(m, first, 1.0, 0.0, positions[i]);
     }
 }
 
@@ -114,7 +114,7 @@ static void build_bowl(mesh *m) {
 }
 
 typedef struct fruit {
-    vec place;
+    vec position;
     double size, lean, angle; /* leans about z, then turns about y */
     double seed;
 } fruit;
@@ -125,7 +125,7 @@ static void place_fruit(mesh *m, size_t first, const fruit *f) {
         m->positions[i] = turn_z(m->positions[i], f->lean);
         m->normals[i] = turn_z(m->normals[i], f->lean);
     }
-    mesh_place(m, first, f->size, f->angle, f->place);
+    mesh_place(m, first, f->size, f->angle, f->position);
 }
 
 static vec apple_surface(const void *context, double u, double v) {
@@ -235,7 +235,7 @@ static vec ball_surface(const void *context, double u, double v) {
 /* A bunch of grapes that hangs over the bowl's rim onto the table: grapes about a bent line, none within
  * another. */
 static void build_grapes(mesh *m) {
-    vec placed[64];
+    vec grapes[64];
     size_t count = 0;
     const grid size = {.rows = 20, .columns = 28, .wraps_v = true};
     for (size_t i = 0; i < 4000 && count < 44; ++i) {
@@ -248,10 +248,10 @@ static void build_grapes(mesh *m) {
         p.y = fmax(p.y, 0.062);
         bool free = length(subtract((vec){p.x, p.y, p.z}, (vec){-0.46, 0.26, 0.10})) > 0.215;
         for (size_t k = 0; k < count; ++k)
-            free = free && length(subtract(p, placed[k])) > 0.108;
+            free = free && length(subtract(p, grapes[k])) > 0.108;
         if (!free)
             continue;
-        placed[count++] = p;
+        grapes[count++] = p;
         const size_t first = m->vertex_count;
         const fruit grape = {p, 0.056 + 0.004 * sin(5.0 * (double)i), 1.3 * sin(3.0 * (double)i),
                              2.0 * (double)i, 0.0};

@@ -15,7 +15,7 @@ typedef struct net {
     size_t plane;             /* being sampled */
     float *values[2];         /* corners of two planes, z after z */
     uint32_t *ids[2];         /* vertices of two layers of cells */
-    mesh *made;
+    mesh *surface;
 } net;
 
 static vec corner_at(const net *n, double i, double j, double k) {
@@ -99,7 +99,7 @@ static void cell_vertex(net *n, size_t i, size_t j, size_t k) {
         }
     const vec middle = scale(sum, 1.0 / count);
     n->ids[k % 2][j * n->cells[0] + i] = mesh_vertex(
-        n->made, corner_at(n, (double)i + middle.x, (double)j + middle.y, (double)k + middle.z), (vec){0});
+        n->surface, corner_at(n, (double)i + middle.x, (double)j + middle.y, (double)k + middle.z), (vec){0});
 }
 
 /* Two triangles, split along the shorter diagonal. */
@@ -126,12 +126,14 @@ static void layer_quads(const net *n, size_t k) {
             const size_t at = j * width + i;
             const uint32_t *const near = n->ids[(k + 1) % 2], *const far = n->ids[k % 2];
             if (j > 0 && k > 0 && (here < 0.0) != (cell_value(n, i, j, k, 1) < 0.0))
-                quad(n->made, (const uint32_t[4]){near[at - width], near[at], far[at], far[at - width]},
+                quad(n->surface, (const uint32_t[4]){near[at - width], near[at], far[at], far[at - width]},
                      here >= 0.0);
             if (i > 0 && k > 0 && (here < 0.0) != (cell_value(n, i, j, k, 2) < 0.0))
-                quad(n->made, (const uint32_t[4]){near[at - 1], far[at - 1], far[at], near[at]}, here >= 0.0);
+                quad(n->surface, (const uint32_t[4]){near[at - 1], far[at - 1], far[at], near[at]},
+                     here >= 0.0);
             if (i > 0 && j > 0 && (here < 0.0) != (cell_value(n, i, j, k, 4) < 0.0))
-                quad(n->made, (const uint32_t[4]){far[at - width - 1], far[at - width], far[at], far[at - 1]},
+                quad(n->surface,
+                     (const uint32_t[4]){far[at - width - 1], far[at - width], far[at], far[at - 1]},
                      here >= 0.0);
         }
 }
@@ -150,9 +152,9 @@ static aur_result finish_vertices(void *context, size_t chunk) {
     const net *const n = context;
     const double cell = n->box->cell;
     const size_t end =
-        (chunk + 1) * CHUNK < n->made->vertex_count ? (chunk + 1) * CHUNK : n->made->vertex_count;
+        (chunk + 1) * CHUNK < n->surface->vertex_count ? (chunk + 1) * CHUNK : n->surface->vertex_count;
     for (size_t i = chunk * CHUNK; i < end; ++i) {
-        vec p = n->made->positions[i];
+        vec p = n->surface->positions[i];
         vec slope = gradient(n, p, 0.4 * cell);
         const double squared = dot(slope, slope);
         if (squared > 1e-12) {
@@ -160,8 +162,8 @@ static aur_result finish_vertices(void *context, size_t chunk) {
             p = add_scaled(p, -step, slope);
         }
         slope = gradient(n, p, 0.4 * cell);
-        n->made->positions[i] = p;
-        n->made->normals[i] = normalize(slope);
+        n->surface->positions[i] = p;
+        n->surface->normals[i] = normalize(slope);
     }
     return AUR_OK;
 }
@@ -180,8 +182,8 @@ static bool allocate(net *n) {
 
 void mesh_solid(mesh *m, const solid_box *box, solid function, const void *context) {
     static const aur_parallel_options all_threads = {0};
-    mesh made = {0};
-    net n = {.box = box, .function = function, .context = context, .made = &made};
+    mesh surface = {0};
+    net n = {.box = box, .function = function, .context = context, .surface = &surface};
     const vec extent = subtract(box->upper, box->lower);
     const double sizes[3] = {extent.x, extent.y, extent.z};
     for (size_t a = 0; a < 3; ++a) {
@@ -200,9 +202,9 @@ void mesh_solid(mesh *m, const solid_box *box, solid function, const void *conte
                     cell_vertex(&n, i, j, layer);
             layer_quads(&n, layer);
         }
-        aur_parallel_for(&all_threads, (made.vertex_count + CHUNK - 1) / CHUNK, finish_vertices, &n, NULL);
+        aur_parallel_for(&all_threads, (surface.vertex_count + CHUNK - 1) / CHUNK, finish_vertices, &n, NULL);
     } else {
-        made.out_of_memory = true;
+        surface.out_of_memory = true;
     }
     free(n.block_state);
     for (size_t i = 0; i < 2; ++i) {
@@ -211,13 +213,13 @@ void mesh_solid(mesh *m, const solid_box *box, solid function, const void *conte
     }
     /* Joined to what is there already. */
     const uint32_t first = (uint32_t)m->vertex_count;
-    for (size_t i = 0; i < made.vertex_count && !made.out_of_memory; ++i)
-        mesh_vertex(m, made.positions[i], made.normals[i]);
-    for (size_t i = 0; i < made.triangle_count && !made.out_of_memory; ++i)
-        mesh_triangle(m, first + made.triangles[i][0], first + made.triangles[i][1],
-                      first + made.triangles[i][2]);
-    m->out_of_memory = m->out_of_memory || made.out_of_memory;
-    mesh_release(&made);
+    for (size_t i = 0; i < surface.vertex_count && !surface.out_of_memory; ++i)
+        mesh_vertex(m, surface.positions[i], surface.normals[i]);
+    for (size_t i = 0; i < surface.triangle_count && !surface.out_of_memory; ++i)
+        mesh_triangle(m, first + surface.triangles[i][0], first + surface.triangles[i][1],
+                      first + surface.triangles[i][2]);
+    m->out_of_memory = m->out_of_memory || surface.out_of_memory;
+    mesh_release(&surface);
 }
 
 /* --- building blocks */

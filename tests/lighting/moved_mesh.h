@@ -13,38 +13,38 @@ static inline mesh_pose move_to(double x, double y, double z) {
 }
 
 /* About the axis (2, 3, 6) / 7 by an angle (Rodrigues). */
-static inline mesh_pose place_turned(double angle, double x, double y, double z) {
+static inline mesh_pose turned_pose(double angle, double x, double y, double z) {
     const double axis[3] = {2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, c = cos(angle), s = sin(angle);
-    mesh_pose place = move_to(x, y, z);
+    mesh_pose pose = move_to(x, y, z);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            place.turn[i][k] = (1.0 - c) * axis[i] * axis[k] + (i == k ? c : 0.0);
-    place.turn[0][1] -= s * axis[2];
-    place.turn[0][2] += s * axis[1];
-    place.turn[1][0] += s * axis[2];
-    place.turn[1][2] -= s * axis[0];
-    place.turn[2][0] -= s * axis[1];
-    place.turn[2][1] += s * axis[0];
-    return place;
+            pose.turn[i][k] = (1.0 - c) * axis[i] * axis[k] + (i == k ? c : 0.0);
+    pose.turn[0][1] -= s * axis[2];
+    pose.turn[0][2] += s * axis[1];
+    pose.turn[1][0] += s * axis[2];
+    pose.turn[1][2] -= s * axis[0];
+    pose.turn[2][0] -= s * axis[1];
+    pose.turn[2][1] += s * axis[0];
+    return pose;
 }
 
 /* The rounding of a coordinate there, for a mesh a few units wide. */
-static inline double place_rounding(const mesh_pose *place) {
-    return 0x1p-53 * (8.0 + fabs(place->offset[0]) + fabs(place->offset[1]) + fabs(place->offset[2]));
+static inline double pose_rounding(const mesh_pose *pose) {
+    return 0x1p-53 * (8.0 + fabs(pose->offset[0]) + fabs(pose->offset[1]) + fabs(pose->offset[2]));
 }
 
-static inline void moved_polygon(mesh_file *file, const mesh_pose *place, size_t count,
+static inline void moved_polygon(mesh_file *file, const mesh_pose *pose, size_t count,
                                  const double (*corners)[3]) {
     double moved[8][3];
     for (size_t i = 0; i < count; ++i)
         for (int d = 0; d < 3; ++d)
-            moved[i][d] = place->turn[d][0] * corners[i][0] + place->turn[d][1] * corners[i][1] +
-                          place->turn[d][2] * corners[i][2] + place->offset[d];
+            moved[i][d] = pose->turn[d][0] * corners[i][0] + pose->turn[d][1] * corners[i][1] +
+                          pose->turn[d][2] * corners[i][2] + pose->offset[d];
     mesh_polygon(file, count, (const double(*)[3])moved);
 }
 
 /* As mesh_box, with each side in a separate group. */
-static inline void moved_box(mesh_file *file, const mesh_pose *place, const char *name, const double low[3],
+static inline void moved_box(mesh_file *file, const mesh_pose *pose, const char *name, const double low[3],
                              const double high[3], bool inside) {
     static const int faces[6][4] = {{0, 4, 6, 2}, {0, 1, 5, 4}, {0, 2, 3, 1},
                                     {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
@@ -54,6 +54,6 @@ static inline void moved_box(mesh_file *file, const mesh_pose *place, const char
             for (int d = 0; d < 3; ++d)
                 corners[inside ? 3 - k : k][d] = (faces[f][k] >> d & 1) != 0 ? high[d] : low[d];
         fprintf(file->stream, "g %s%zu\n", name, f);
-        moved_polygon(file, place, 4, (const double(*)[3])corners);
+        moved_polygon(file, pose, 4, (const double(*)[3])corners);
     }
 }

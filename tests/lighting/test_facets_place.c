@@ -12,11 +12,11 @@ enum { OFFSETS = sizeof offsets / sizeof offsets[0], SEEDS = 32 };
 
 /* A table in a room, and two blocks at a street in strips. */
 static aur_facets *load_room(const double offset[3], bool group) {
-    const mesh_pose place = move_to(offset[0], offset[1], offset[2]);
+    const mesh_pose pose = move_to(offset[0], offset[1], offset[2]);
     mesh_file file;
     mesh_begin(&file, "place-room");
-    moved_box(&file, &place, "room", (double[3]){0, 0, 0}, (double[3]){4, 3, 2.5}, true);
-    moved_box(&file, &place, "table", (double[3]){1, 1.2, 0.7}, (double[3]){2.2, 2, 0.72}, false);
+    moved_box(&file, &pose, "room", (double[3]){0, 0, 0}, (double[3]){4, 3, 2.5}, true);
+    moved_box(&file, &pose, "table", (double[3]){1, 1.2, 0.7}, (double[3]){2.2, 2, 0.72}, false);
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
     options.group = group;
@@ -24,18 +24,18 @@ static aur_facets *load_room(const double offset[3], bool group) {
 }
 
 static aur_facets *load_street(const double offset[3], bool both_sides) {
-    const mesh_pose place = move_to(offset[0], offset[1], offset[2]);
+    const mesh_pose pose = move_to(offset[0], offset[1], offset[2]);
     mesh_file file;
     mesh_begin(&file, "place-street");
     for (int i = 0; i < 3; ++i) {
         fprintf(file.stream, "g strip%d\n", i);
         moved_polygon(
-            &file, &place, 4,
+            &file, &pose, 4,
             (const double[4][3]){
                 {2.0 * i - 3, -20, 0}, {2.0 * i - 1, -20, 0}, {2.0 * i - 1, 20, 0}, {2.0 * i - 3, 20, 0}});
     }
-    moved_box(&file, &place, "west", (double[3]){-13, -20, 0}, (double[3]){-3, 20, 10}, false);
-    moved_box(&file, &place, "east", (double[3]){3, -20, 0}, (double[3]){13, 20, 14}, false);
+    moved_box(&file, &pose, "west", (double[3]){-13, -20, 0}, (double[3]){-3, 20, 10}, false);
+    moved_box(&file, &pose, "east", (double[3]){3, -20, 0}, (double[3]){13, 20, 14}, false);
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
     options.group = true;
@@ -113,8 +113,8 @@ static void check_factors(aur_facets *(*load)(const double *, bool), bool flag, 
         add_factors(&first, here, seed, rays_only, exact);
     for (size_t p = 0; p < OFFSETS; ++p) {
         aur_facets *const there = load(offsets[p], flag);
-        const mesh_pose place = move_to(offsets[p][0], offsets[p][1], offsets[p][2]);
-        const double rounding = 16.0 * place_rounding(&place);
+        const mesh_pose pose = move_to(offsets[p][0], offsets[p][1], offsets[p][2]);
+        const double rounding = 16.0 * pose_rounding(&pose);
         sample other = new_sample(numbers);
         for (uint64_t seed = 0; seed < SEEDS; ++seed)
             add_factors(&other, there, 1000 * (p + 1) + seed, rays_only, exact + rows * rows);
@@ -213,12 +213,12 @@ static void test_coverage(void **state) {
         aur_view_factors *const factors = factors_of(facets, &requested, &m);
         for (size_t i = 0; i < m.rows; ++i)
             for (size_t k = 0; k < i; ++k) {
-                double width, known;
+                double width, expected_width;
                 const double measured = factor_at(&m, i, k, &width);
-                const double expected = factor_at(&truth, i, k, &known);
+                const double expected = factor_at(&truth, i, k, &expected_width);
                 if (expected < 0.02)
                     continue; /* a few rays of 256 */
-                held += fabs(measured - expected) <= width + known;
+                held += fabs(measured - expected) <= width + expected_width;
                 ++all;
             }
         aur_view_factors_destroy(factors);
@@ -300,11 +300,11 @@ static void test_small_facets(void **state) {
             const aur_view_factors_options requested = target_of(1, false);
             aur_view_factors_matrix m;
             aur_view_factors *const factors = factors_of(facets, &requested, &m);
-            const double known = 64.0 * 0x1p-53 * (o[0] + o[1] + o[2]) / size;
+            const double rounding = 64.0 * 0x1p-53 * (o[0] + o[1] + o[2]) / size;
             double seen = 0.0;
             for (size_t k = 2; k < 4; ++k)
                 seen += factor_at(&m, 0, k, NULL) / 2.0 + factor_at(&m, 1, k, NULL) / 2.0;
-            assert_near(seen, 0.19982489569838732, 1e-12 + known); /* Howell C-11 */
+            assert_near(seen, 0.19982489569838732, 1e-12 + rounding); /* Howell C-11 */
             aur_view_factors_destroy(factors);
             aur_facets_destroy(facets);
         }
@@ -366,10 +366,10 @@ static void test_wide_ground(void **state) {
 static void test_tilted_square(void **state) {
     (void)state;
     for (int i = 1; i < 8; ++i) {
-        const mesh_pose place = place_turned(0.4 * i, 0, 0, 0);
+        const mesh_pose pose = turned_pose(0.4 * i, 0, 0, 0);
         mesh_file file;
         mesh_begin(&file, "tilted");
-        moved_polygon(&file, &place, 4, (const double[4][3]){{-7, -6, 0}, {8, -6, 0}, {8, 9, 0}, {-7, 9, 0}});
+        moved_polygon(&file, &pose, 4, (const double[4][3]){{-7, -6, 0}, {8, -6, 0}, {8, 9, 0}, {-7, 9, 0}});
         aur_facets *const facets = mesh_load(&file, NULL);
         aur_view_factors_options requested = target_of(1, true);
         requested.rays = 1 << 16;

@@ -95,9 +95,9 @@ static void test_both_ways(void **state) {
     requested.rays = 4096;
     aur_view_factors *factors = NULL;
     assert_int_equal(aur_view_factors_create(facets, &requested, &factors, NULL), AUR_OK);
-    double matrix[14], one[14], three[14], half[14], own[14], sky[14];
-    assert_int_equal(aur_view_factors_radiosity(facets, factors, &requested, &light, matrix, own, NULL, NULL),
-                     AUR_OK);
+    double matrix[14], one[14], three[14], half[14], bars[14], sky[14];
+    assert_int_equal(
+        aur_view_factors_radiosity(facets, factors, &requested, &light, matrix, bars, NULL, NULL), AUR_OK);
     requested.threads = 1;
     assert_int_equal(aur_view_factors_radiosity(facets, NULL, &requested, &light, one, half, sky, NULL),
                      AUR_OK);
@@ -109,9 +109,9 @@ static void test_both_ways(void **state) {
     for (size_t i = 0; i < rows; ++i) {
         /* Twice an interval is 4.7 standard errors. The roof of the block sees sky and nothing else, without
          * error. */
-        assert_true(fabs(one[i] - matrix[i]) <= 2.0 * hypot(half[i], own[i]) + 1e-12);
-        assert_true(half[i] < 0.02 && own[i] < 0.02);
-        sure += own[i] < 1e-12;
+        assert_true(fabs(one[i] - matrix[i]) <= 2.0 * hypot(half[i], bars[i]) + 1e-12);
+        assert_true(half[i] < 0.02 && bars[i] < 0.02);
+        sure += bars[i] < 1e-12;
     }
     assert_int_equal(sure, 2);
     aur_view_factors_destroy(factors);

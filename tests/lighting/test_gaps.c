@@ -20,14 +20,14 @@ static double expected(double height, double x, double y) {
 
 enum { LOWER = 5, UPPER = 8, ROOM = 12 }; /* the sides that see each other, the first of the room */
 
-static void check_gap(double height, double x, double y, bool room, const mesh_pose *place) {
+static void check_gap(double height, double x, double y, bool room, const mesh_pose *pose) {
     mesh_file file;
     mesh_begin(&file, "gap");
-    moved_box(&file, place, "lower", (double[3]){0, 0, 0}, (double[3]){1, 1, 0.5}, false);
-    moved_box(&file, place, "upper", (double[3]){x, y, 0.5 + height}, (double[3]){1 + x, 1 + y, 1 + height},
+    moved_box(&file, pose, "lower", (double[3]){0, 0, 0}, (double[3]){1, 1, 0.5}, false);
+    moved_box(&file, pose, "upper", (double[3]){x, y, 0.5 + height}, (double[3]){1 + x, 1 + y, 1 + height},
               false);
     if (room)
-        moved_box(&file, place, "room", (double[3]){-1.5, -2, -1}, (double[3]){2.5, 3, 4}, true);
+        moved_box(&file, pose, "room", (double[3]){-1.5, -2, -1}, (double[3]){2.5, 3, 4}, true);
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
     options.group = true;
@@ -38,7 +38,7 @@ static void check_gap(double height, double x, double y, bool room, const mesh_p
     const double measured = factor_at(&m, LOWER, UPPER, &width);
     /* Closed forms err by 1e-11 at most; a corner that moves by a length changes a unit square's factor by
      * not more than twice that, and 0.5 + height is rounded. */
-    assert_near(measured, expected(height, x, y), 1e-11 + 16.0 * place_rounding(place));
+    assert_near(measured, expected(height, x, y), 1e-11 + 16.0 * pose_rounding(pose));
     assert_true(width == 0.0);
     check_physics(&m);
     /* The rest goes to existing surroundings: to the sky, or to the room. */
@@ -54,7 +54,7 @@ static void check_gap(double height, double x, double y, bool room, const mesh_p
 static void test_gaps(void **state) {
     (void)state;
     static const double heights[] = {1e-8, 1e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 1e-3, 0.1, 1.0};
-    const mesh_pose here = move_to(0, 0, 0), turned = place_turned(1.0, 0, 0, 0);
+    const mesh_pose here = move_to(0, 0, 0), turned = turned_pose(1.0, 0, 0, 0);
     for (size_t h = 0; h < sizeof heights / sizeof heights[0]; ++h)
         for (int room = 0; room < 2; ++room) {
             check_gap(heights[h], 0.0, 0.0, room, &here);
@@ -74,20 +74,20 @@ static void test_far_away(void **state) {
             for (int room = 0; room < 2; ++room) {
                 const double *const o = offsets[i];
                 const mesh_pose there = move_to(o[0], o[1], o[2]),
-                                turned = place_turned(0.5 + (double)i, o[0], o[1], o[2]);
+                                turned = turned_pose(0.5 + (double)i, o[0], o[1], o[2]);
                 check_gap(heights[h], 0.0, 0.0, room, &there);
                 check_gap(heights[h], 0.3, 0.2, room, &turned);
             }
 }
 
 /* A third box touches both sides of the gap: it lies on an edge of all light paths across. */
-static void check_stood_on(double gap, const mesh_pose *place) {
+static void check_stood_on(double gap, const mesh_pose *pose) {
     mesh_file file;
     mesh_begin(&file, "stood-on");
-    moved_box(&file, place, "left", (double[3]){0, 0, 0}, (double[3]){1, 1, 1}, false);
-    moved_box(&file, place, "right", (double[3]){1 + gap, 0, 0}, (double[3]){2, 1, 1}, false);
-    moved_box(&file, place, "top", (double[3]){0.5, 0.5, 1}, (double[3]){1.5, 0.8, 2}, false);
-    moved_box(&file, place, "room", (double[3]){-1, -1, -1}, (double[3]){3, 3, 4}, true);
+    moved_box(&file, pose, "left", (double[3]){0, 0, 0}, (double[3]){1, 1, 1}, false);
+    moved_box(&file, pose, "right", (double[3]){1 + gap, 0, 0}, (double[3]){2, 1, 1}, false);
+    moved_box(&file, pose, "top", (double[3]){0.5, 0.5, 1}, (double[3]){1.5, 0.8, 2}, false);
+    moved_box(&file, pose, "room", (double[3]){-1, -1, -1}, (double[3]){3, 3, 4}, true);
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
     options.group = true;
@@ -105,7 +105,7 @@ static void check_stood_on(double gap, const mesh_pose *place) {
 static void test_stood_on(void **state) {
     (void)state;
     static const double gaps[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3};
-    const mesh_pose here = move_to(0, 0, 0), turned = place_turned(0.7, 0, 0, 0);
+    const mesh_pose here = move_to(0, 0, 0), turned = turned_pose(0.7, 0, 0, 0);
     for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
         check_stood_on(gaps[g], &here);
         check_stood_on(gaps[g], &turned);
@@ -117,13 +117,13 @@ static void test_stood_on(void **state) {
 static void test_face_down(void **state) {
     (void)state;
     for (int i = 0; i < 8; ++i) {
-        const mesh_pose place =
-            place_turned(0.4 * i, 500123.25 * (i % 4), 5412345.5 * (i % 4), i % 2 == 0 ? 431.125 : -1e7);
+        const mesh_pose pose =
+            turned_pose(0.4 * i, 500123.25 * (i % 4), 5412345.5 * (i % 4), i % 2 == 0 ? 431.125 : -1e7);
         mesh_file file;
         mesh_begin(&file, "face-down");
-        moved_box(&file, &place, "room", (double[3]){0, 0, 0}, (double[3]){4, 5, 3}, true);
+        moved_box(&file, &pose, "room", (double[3]){0, 0, 0}, (double[3]){4, 5, 3}, true);
         mesh_group(&file, "sheet");
-        moved_polygon(&file, &place, 4, (const double[4][3]){{1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}});
+        moved_polygon(&file, &pose, 4, (const double[4][3]){{1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}});
         aur_facets_options options = {.size = sizeof options};
         aur_facets_options_init(&options, NULL);
         options.group = true;
@@ -140,7 +140,7 @@ static void test_face_down(void **state) {
 
 /* Two-sided rugs over .4 of a tiled floor, on top of each other: each sees all of the next one, the covered
  * floor the lowest, and the uncovered floor the sky. Rows: the floor, the rugs, then their backs. */
-static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *place) {
+static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *pose) {
     mesh_file file;
     mesh_begin(&file, "rugs");
     for (int part = 0; part < 2; ++part) {
@@ -148,7 +148,7 @@ static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const m
             mesh_group(&file, "floor");
             for (int i = 0; i < 9; ++i) {
                 const double x = i % 3 / 3.0, y = i / 3 / 3.0, side = 1.0 / 3.0;
-                moved_polygon(&file, place, 4,
+                moved_polygon(&file, pose, 4,
                               (const double[4][3]){
                                   {x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}});
             }
@@ -159,7 +159,7 @@ static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const m
             char name[8];
             snprintf(name, sizeof name, "rug%zu", k);
             mesh_group(&file, name);
-            moved_polygon(&file, place, 4,
+            moved_polygon(&file, pose, 4,
                           (const double[4][3]){{0.1, 0.1, z}, {0.6, 0.1, z}, {0.6, 0.9, z}, {0.1, 0.9, z}});
         }
     }
@@ -191,8 +191,8 @@ static void check_radiosities(const double *b, const double *widths, size_t laye
     }
 }
 
-static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *place) {
-    aur_facets *const facets = load_rugs(gap, layers, rugs_first, place);
+static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_pose *pose) {
+    aur_facets *const facets = load_rugs(gap, layers, rugs_first, pose);
     const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
     const double slack = lost_past_edges(gap) + 1e-6;
     assert_int_equal(aur_facets_rows(facets), 2 * rows);
@@ -242,7 +242,7 @@ static void test_rugs(void **state) {
                                                                  */
                 continue;
             const mesh_pose there = move_to(o[0], o[1], o[2]),
-                            turned = place_turned(0.5 + (double)(i + g), o[0], o[1], o[2]);
+                            turned = turned_pose(0.5 + (double)(i + g), o[0], o[1], o[2]);
             check_rugs(gaps[g], 1 + g % 3, g % 2 == 0, &there);
             check_rugs(gaps[g], 1 + g % 3, g % 2 == 1, &turned);
         }

@@ -28,8 +28,8 @@ static void make(double rate, double *values) {
                 const double wide =
                     sqrt(pow(2.0, rate * (double)level) - pow(2.0, rate * (double)(level - 1)));
                 const size_t part = p >> (3 - level);
-                const double own = normal(i, (1u << level) + part / 2);
-                sum += wide * (part % 2 == 0 ? own : -own);
+                const double value = normal(i, (1u << level) + part / 2);
+                sum += wide * (part % 2 == 0 ? value : -value);
             }
             values[PARTS * i + p] = sum;
         }

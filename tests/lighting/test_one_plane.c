@@ -30,7 +30,7 @@ static double dice(uint64_t seed, uint64_t number) {
 
 /* Brute force: every point of the plane that is not near an edge is covered once, by the first triangle that
  * contains it. */
-static void check_plane(uint64_t seed, size_t count, const mesh_pose *place, const char *digits) {
+static void check_plane(uint64_t seed, size_t count, const mesh_pose *pose, const char *digits) {
     enum { MOST = 24, POINTS = 400 };
     triangle triangles[MOST];
     aur_facets_options options = {.size = sizeof options};
@@ -47,8 +47,8 @@ static void check_plane(uint64_t seed, size_t count, const mesh_pose *place, con
         for (size_t c = 0; c < 3; ++c) {
             double p[3];
             for (int d = 0; d < 3; ++d)
-                p[d] = place->turn[d][0] * triangles[i].corners[c][0] +
-                       place->turn[d][1] * triangles[i].corners[c][1] + place->offset[d];
+                p[d] = pose->turn[d][0] * triangles[i].corners[c][0] +
+                       pose->turn[d][1] * triangles[i].corners[c][1] + pose->offset[d];
             fprintf(file.stream, digits, p[0], p[1], p[2]);
         }
         fprintf(file.stream, "f %zu %zu %zu\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
@@ -75,7 +75,7 @@ static void check_plane(uint64_t seed, size_t count, const mesh_pose *place, con
                 for (int axis = 0; axis < 2; ++axis)
                     for (int d = 0; d < 3; ++d)
                         left.corners[c][axis] +=
-                            place->turn[d][axis] * (facets->corners[f][c][d] + origin[d] - place->offset[d]);
+                            pose->turn[d][axis] * (facets->corners[f][c][d] + origin[d] - pose->offset[d]);
             if (contains(&left, point, 0.0)) {
                 ++found;
                 source = facets->sources[f];
@@ -94,8 +94,8 @@ static void test_brute_force(void **state) {
     static const char *const exact = "v %.17g %.17g %.17g\n", *const rounded = "v %.6f %.6f %.6f\n";
     for (uint64_t seed = 0; seed < 12; ++seed) {
         const double angle = seed % 3 == 0 ? 0.0 : 0.3 * (double)seed;
-        const mesh_pose near = place_turned(angle, 0.1, 0.2, -3),
-                        far = place_turned(angle, 500000.37, 5400000.11, 45.2);
+        const mesh_pose near = turned_pose(angle, 0.1, 0.2, -3),
+                        far = turned_pose(angle, 500000.37, 5400000.11, 45.2);
         check_plane(seed, 2 + 2 * (seed % 12), &near, exact);
         check_plane(seed, 10, &near, rounded);
         check_plane(seed, 10, &far, exact);

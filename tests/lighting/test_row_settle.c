@@ -128,10 +128,10 @@ static void test_spread(void **state) {
         assert_near(mean.sky_half_widths[a], scale * sqrt(sky[a]), 2e-3 * mean.sky_half_widths[a]);
         for (uint64_t e = starts[a]; e < starts[a + 1]; ++e) {
             assert_near(mean.half_widths[e], scale * sqrt(squares[e]), 2e-3 * mean.half_widths[e]);
-            double own = 0.0;
+            double square = 0.0;
             for (size_t r = 0; r < PARTS; ++r)
-                own += deviation(100, a, columns[e], r) * deviation(100, a, columns[e], r);
-            before += scale * scale * own;
+                square += deviation(100, a, columns[e], r) * deviation(100, a, columns[e], r);
+            before += scale * scale * square;
             after += mean.half_widths[e] * mean.half_widths[e];
         }
     }

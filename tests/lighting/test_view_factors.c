@@ -109,8 +109,8 @@ static void test_cylinders(void **state) {
     double width;
     const double measured = factor_at(&m, 0, 1, &width);
     assert_near(measured, inwards, 2e-3 * inwards + 2.0 * width);
-    const double own = factor_at(&m, 0, 0, &width);
-    assert_near(own, itself, 2e-3 * itself + 2.0 * width);
+    const double diagonal = factor_at(&m, 0, 0, &width);
+    assert_near(diagonal, itself, 2e-3 * itself + 2.0 * width);
     assert_near(factor_at(&m, 1, 1, NULL), 0.0, 0.0);
     check_physics(&m);
     aur_view_factors_destroy(factors);

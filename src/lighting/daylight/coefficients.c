@@ -27,14 +27,14 @@ static void add_light(void *user, size_t lane, aur_vector direction, aur_vector 
     }
 }
 
-void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
+void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *point,
                            const aur_coefficients *coefficients, aur_sensor_sums *sums) {
     const size_t count = coefficients->channels * coefficients->patches->count * AUR_DAYLIGHT_LANES;
     memset(coefficients->all, 0, count * sizeof *coefficients->all);
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
     group->sensor.from_sky = add_light;
     group->sensor.from_sky_user = (void *)(uintptr_t)coefficients;
-    aur_sensor_trace(group, rule, place, NULL, 0, sums);
+    aur_sensor_trace(group, rule, point, NULL, 0, sums);
     const double scale = AUR_PI / (double)rule->count;
     for (size_t i = 0; i < count; ++i) {
         coefficients->all[i] *= scale;
@@ -73,7 +73,7 @@ void aur_coefficient_trace_release(aur_coefficient_trace *trace) {
 }
 
 /* Sixteen rays to the sun's disk, uniform by solid angle. */
-static void set_rays(aur_packet *packet, const aur_sensor_point *place, const double center[3],
+static void set_rays(aur_packet *packet, const aur_sensor_point *point, const double center[3],
                      uint64_t hash) {
     static const double RISE = 1.0816e-5; /* 1 - cosine of .2665 degrees */
     double x[3], y[3];
@@ -88,7 +88,7 @@ static void set_rays(aur_packet *packet, const aur_sensor_point *place, const do
         float way[3];
         for (int d = 0; d < 3; ++d)
             way[d] = (float)((1.0 - low) * center[d] + c * x[d] + s * y[d]);
-        const aur_ray ray = {place->position, 0.0f, {way[0], way[1], way[2]}, INFINITY};
+        const aur_ray ray = {point->position, 0.0f, {way[0], way[1], way[2]}, INFINITY};
         aur_packet_set(packet, k, &ray);
     }
 }
@@ -100,11 +100,11 @@ static double passed(const aur_path_group *group, size_t lane, const aur_coeffic
     return aur_dot3(coefficients->weights[0], left);
 }
 
-void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const aur_coefficients *coefficients,
+void aur_sun_seen(aur_path_group *group, const aur_sensor_point *point, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen) {
     const aur_sun_position *const frame = &coefficients->sky->frame;
     double normal[3];
-    aur_vector_to_doubles(place->frame.z, normal);
+    aur_vector_to_doubles(point->frame.z, normal);
     memset(seen, 0, lit->count * AUR_DAYLIGHT_LANES * sizeof *seen);
     for (size_t i = 0; i < lit->count; ++i) {
         const aur_lit_hour *const hour = &lit->hours[i];
@@ -115,7 +115,7 @@ void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const au
         const double light = hour->direct * aur_dot3(center, normal);
         if (!(light > 0.0))
             continue;
-        set_rays(&group->shadows, place, center, aur_hash3(place->hash, 0x73756e, hour->hour));
+        set_rays(&group->shadows, point, center, aur_hash3(point->hash, 0x73756e, hour->hour));
         aur_packet_set_lanes(&group->shadows, UINT16_MAX);
         const uint32_t stopped = aur_scene_occluded16(group->scene, AUR_EMBREE_COHERENT, &group->shadows);
         for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k)

@@ -44,12 +44,12 @@ aur_result aur_daylight_options_read(const aur_daylight_options *given, aur_dayl
                                      aur_error *error);
 
 /* Fills all[] and reflected[]. */
-void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
+void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *point,
                            const aur_coefficients *coefficients, aur_sensor_sums *sums);
 
 /* seen[lit->count][16]: the illuminance directly from the sun in each hour, by one point of its disk per
  * randomisation. */
-void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const aur_coefficients *coefficients,
+void aur_sun_seen(aur_path_group *group, const aur_sensor_point *point, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen);
 
 /* The measures of a sensor from a year of illuminances. */

@@ -149,21 +149,21 @@ static void keep_series(const work *w, size_t sensor, const double *all) {
 
 static void estimate_sensor(const work *w, aur_path_group *group, const room *r, size_t sensor) {
     static const aur_closed_lights none = {0};
-    aur_sensor_point place;
+    aur_sensor_point point;
     aur_sensor_sums sums;
     double overcast[LANES] = {0.0};
     aur_sensor_point_create(w->trace.sky.scene, &none, w->sensors->positions + 3 * sensor,
-                            w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
-    aur_coefficients_find(group, &w->trace.rule, &place, &r->coefficients, &sums);
-    aur_sun_seen(group, &place, &r->coefficients, &w->lit, r->sun);
+                            w->sensors->normals + 3 * sensor, w->options->seed, NULL, &point);
+    aur_coefficients_find(group, &w->trace.rule, &point, &r->coefficients, &sums);
+    aur_sun_seen(group, &point, &r->coefficients, &w->lit, r->sun);
     multiply(w, r);
     for (size_t p = 0; p < w->trace.patches.count; ++p)
         for (size_t k = 0; k < LANES; ++k)
             overcast[k] += w->overcast[p] * r->coefficients.all[p * LANES + k];
     aur_daylight *const found = &w->results[sensor];
     *found = (aur_daylight){.directions = w->trace.rule.count * LANES,
-                            .on_surface = place.on_surface,
-                            .doubtful = place.doubtful};
+                            .on_surface = point.on_surface,
+                            .doubtful = point.doubtful};
     found->dark = (double)sums.dark / (double)found->directions;
     const aur_daylight_year year = {r->all, r->sun, overcast};
     aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);

@@ -60,14 +60,14 @@ static aur_result estimate_sensor(void *context, size_t sensor) {
                                            .weights = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
                                            .all = all,
                                            .reflected = all + count};
-    aur_sensor_point place;
+    aur_sensor_point point;
     aur_sensor_sums sums;
     aur_path_group_prepare(&w->trace.path, w->trace.sky.scene, w->trace.sampler, &group);
     aur_sensor_point_create(w->trace.sky.scene, &none, w->sensors->positions + 3 * sensor,
-                            w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
-    aur_coefficients_find(&group, &w->trace.rule, &place, &coefficients, &sums);
-    w->states[sensor] = (sensor_state){.on_surface = place.on_surface,
-                                       .doubtful = place.doubtful,
+                            w->sensors->normals + 3 * sensor, w->options->seed, NULL, &point);
+    aur_coefficients_find(&group, &w->trace.rule, &point, &coefficients, &sums);
+    w->states[sensor] = (sensor_state){.on_surface = point.on_surface,
+                                       .doubtful = point.doubtful,
                                        .dark = (double)sums.dark / (double)(w->trace.rule.count * LANES)};
     reduce(w, sensor, all);
     free(all);

@@ -41,23 +41,23 @@ static void set_middles(aur_sky_patches *patches) {
 aur_result aur_sky_patches_create(size_t subdivision, aur_sky_patches *patches, aur_error *error) {
     static const size_t around[7] = {30, 30, 24, 24, 18, 12, 6};
     const size_t side = (FINENESS + subdivision - 1) / subdivision;
-    aur_sky_patches made = {.subdivision = subdivision,
-                            .row_count = 7 * subdivision + 1,
-                            .count = 1,
-                            .up = side,
-                            .around = side,
-                            .around_zenith = 6 * side};
-    made.step = 0.5 * AUR_PI / ((double)(7 * subdivision) + 0.5);
-    for (size_t row = 0; row < made.row_count; ++row) {
-        made.first[row] = made.count;
-        made.count += row + 1 < made.row_count ? around[row / subdivision] * subdivision : 1;
+    aur_sky_patches built = {.subdivision = subdivision,
+                             .row_count = 7 * subdivision + 1,
+                             .count = 1,
+                             .up = side,
+                             .around = side,
+                             .around_zenith = 6 * side};
+    built.step = 0.5 * AUR_PI / ((double)(7 * subdivision) + 0.5);
+    for (size_t row = 0; row < built.row_count; ++row) {
+        built.first[row] = built.count;
+        built.count += row + 1 < built.row_count ? around[row / subdivision] * subdivision : 1;
     }
-    made.first[made.row_count] = made.count;
-    made.middles = malloc(side * ((made.count - 2) * side + 6 * side) * sizeof *made.middles);
-    if (made.middles == NULL)
+    built.first[built.row_count] = built.count;
+    built.middles = malloc(side * ((built.count - 2) * side + 6 * side) * sizeof *built.middles);
+    if (built.middles == NULL)
         return aur_fail_memory(error);
-    set_middles(&made);
-    *patches = made;
+    set_middles(&built);
+    *patches = built;
     return AUR_OK;
 }
 

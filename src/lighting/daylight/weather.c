@@ -437,21 +437,22 @@ static aur_result read_year(const char *path, char *data, size_t size, aur_weath
 aur_result aur_weather_parse(const char *path, char *data, size_t size, aur_weather **weather,
                              aur_error *error) {
     *weather = NULL;
-    aur_weather *const made = calloc(1, sizeof *made);
-    if (made != NULL)
-        made->file = strdup(path);
+    aur_weather *const parsed = calloc(1, sizeof *parsed);
+    if (parsed != NULL)
+        parsed->file = strdup(path);
     aur_result result = AUR_OK;
-    if (made == NULL || made->file == NULL) {
+    if (parsed == NULL || parsed->file == NULL) {
         result = aur_fail_memory(error);
     } else {
-        made->view = (aur_weather_view){.size = sizeof made->view, .file = made->file, .hours = made->hours};
-        result = read_year(made->file, data, size, made, error);
+        parsed->view =
+            (aur_weather_view){.size = sizeof parsed->view, .file = parsed->file, .hours = parsed->hours};
+        result = read_year(parsed->file, data, size, parsed, error);
     }
     if (result != AUR_OK) {
-        aur_weather_destroy(made);
+        aur_weather_destroy(parsed);
         return result;
     }
-    *weather = made;
+    *weather = parsed;
     return AUR_OK;
 }
 

@@ -42,8 +42,9 @@ static void count(tally *t, bool odd, size_t line) {
  * (IWEC, TMY3, TMYx, PVGIS and others), and for 7 to 27 % with a clock off by an hour, except in one cloudy
  * place. */
 static bool is_unbalanced(const aur_weather_hour *hour, double height) {
-    const double made = hour->direct_normal * height + hour->diffuse_horizontal;
-    return fabs(hour->global_horizontal - made) > fmax(50.0, 0.2 * fmax(made, hour->global_horizontal));
+    const double computed = hour->direct_normal * height + hour->diffuse_horizontal;
+    return fabs(hour->global_horizontal - computed) >
+           fmax(50.0, 0.2 * fmax(computed, hour->global_horizontal));
 }
 
 static void check_hours(const aur_weather_view *weather, tally *balance, tally *night, tally *day) {

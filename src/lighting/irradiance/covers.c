@@ -96,16 +96,16 @@ static bool meet_disk(const near_search *search, const aur_shape *shape, near_su
     return squared <= 1.0 && squared >= (double)shape->inner * (double)shape->inner;
 }
 
-static void take(void *context, const aur_hit *place) {
+static void take(void *context, const aur_hit *hit) {
     near_search *const search = context;
-    const aur_shape *const shape = search->scene->shapes[place->shape];
-    near_surface found = {.hit = *place};
+    const aur_shape *const shape = search->scene->shapes[hit->shape];
+    near_surface found = {.hit = *hit};
     double corners[3][3] = {{0.0}};
     if (shape->curved == NULL) {
-        found.exact = find_corners(search->scene, place, corners);
+        found.exact = find_corners(search->scene, hit, corners);
         if (!meet_triangle(search, (const double(*)[3])corners, &found))
             return;
-    } else if (!shape->ellipse || place->instance != AUR_NO_INSTANCE || !meet_disk(search, shape, &found)) {
+    } else if (!shape->ellipse || hit->instance != AUR_NO_INSTANCE || !meet_disk(search, shape, &found)) {
         return;
     }
     if (!(fabs(found.distance) <= search->farthest))

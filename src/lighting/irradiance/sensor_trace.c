@@ -274,7 +274,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_point *surface_poi
     double seen[AUR_PACKET_SIZE][3] = {{0.0}};
     size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
     uint32_t unscattered = g->alive, pending = cache != NULL ? g->alive : 0;
-    g->sensor.known = surface_point->shares;
+    g->sensor.light_shares = surface_point->shares;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         reflected[k] = REFLECTED;
     for (uint32_t depth = 1;; ++depth) {
@@ -299,7 +299,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_point *surface_poi
         }
     }
     add_parts(g, reflected, seen, sensor_sums);
-    g->sensor.known = NULL;
+    g->sensor.light_shares = NULL;
 }
 
 void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_point *surface_point,

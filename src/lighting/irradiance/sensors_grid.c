@@ -339,7 +339,7 @@ static aur_result keep_margin(grid *self) {
 }
 
 static aur_result place(const grid *self, aur_sensors *sensors) {
-    size_t count = 0, made = 0;
+    size_t count = 0, placed = 0;
     for (size_t i = 0; i < self->cells[0] * self->cells[1]; ++i)
         count += !isnan(self->heights[i]);
     if (count == 0)
@@ -351,11 +351,11 @@ static aur_result place(const grid *self, aur_sensors *sensors) {
             if (isnan(height))
                 continue;
             for (size_t d = 0; d < 3; ++d) {
-                sensors->numbers[3 * made + d] =
+                sensors->numbers[3 * placed + d] =
                     middle(self, 0, i) * self->x[d] + middle(self, 1, j) * self->y[d] + height * self->z[d];
-                sensors->numbers[3 * (count + made) + d] = self->z[d] + 0.0; /* no -0 */
+                sensors->numbers[3 * (count + placed) + d] = self->z[d] + 0.0; /* no -0 */
             }
-            ++made;
+            ++placed;
         }
     return result;
 }
@@ -387,9 +387,9 @@ aur_result aur_sensors_grid(const aur_scene *scene, const aur_grid_options *give
     double *const up = self.options.up;
     if (!(aur_normalize3(up) > 0.0))
         up[scene->document.from_radiance ? 2 : 1] = 1.0;
-    aur_sensors *const made = calloc(1, sizeof *made);
+    aur_sensors *const created = calloc(1, sizeof *created);
     bool is_numbers = false;
-    result = made != NULL ? take_rectangle(&self, &is_numbers) : aur_fail_memory(error);
+    result = created != NULL ? take_rectangle(&self, &is_numbers) : aur_fail_memory(error);
     const bool mesh = aur_mesh_format_of_name(self.options.target) < AUR_MESH_FORMAT_COUNT;
     if (result == AUR_OK && !is_numbers)
         result = mesh ? take_mesh(&self) : take_shapes(&self);
@@ -402,14 +402,14 @@ aur_result aur_sensors_grid(const aur_scene *scene, const aur_grid_options *give
     if (result == AUR_OK && self.options.margin > 0.0)
         result = keep_margin(&self);
     if (result == AUR_OK)
-        result = place(&self, made);
+        result = place(&self, created);
     if (result == AUR_OK)
-        result = aur_sensors_check(&made->view, AUR_ERROR_ARGUMENT, error);
+        result = aur_sensors_check(&created->view, AUR_ERROR_ARGUMENT, error);
     free(self.corners);
     free(self.heights);
     if (result == AUR_OK)
-        *sensors = made;
+        *sensors = created;
     else
-        aur_sensors_destroy(made);
+        aur_sensors_destroy(created);
     return result;
 }

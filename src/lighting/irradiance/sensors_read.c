@@ -75,21 +75,21 @@ aur_result aur_sensors_read(const char *path, const aur_sensors_options *given, 
             aur_fail(error, AUR_ERROR_ARGUMENT, "the lift of sensors must be finite, not %g", options.lift);
     if (result != AUR_OK)
         return result;
-    aur_sensors *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_sensors *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
     result = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT
-                 ? aur_sensors_take_mesh(path, &options, made, error)
-                 : read_table(path, made, error);
+                 ? aur_sensors_take_mesh(path, &options, created, error)
+                 : read_table(path, created, error);
     if (result == AUR_OK)
-        result = aur_sensors_check(&made->view, AUR_ERROR_FORMAT, error);
+        result = aur_sensors_check(&created->view, AUR_ERROR_FORMAT, error);
     if (result != AUR_OK) {
-        aur_sensors_destroy(made);
+        aur_sensors_destroy(created);
         return result;
     }
     if (options.lift != 0.0)
-        lift(options.lift, made);
-    *sensors = made;
+        lift(options.lift, created);
+    *sensors = created;
     return AUR_OK;
 }
 

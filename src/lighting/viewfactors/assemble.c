@@ -84,7 +84,7 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
         const uint32_t k = a < b ? a : b;
         const uint16_t *const out = a == k ? &mine->hits[width * out_index++] : NULL;
         const uint16_t *const in =
-            b == k ? &ray_hits->rows[k].hits[width * (size_t)ray_hits->places[in_index++]] : NULL;
+            b == k ? &ray_hits->rows[k].hits[width * (size_t)ray_hits->hit_indices[in_index++]] : NULL;
         while (closed_index < closed->count && closed->patches[closed_index] < k)
             ++closed_index;
         if ((closed_index < closed->count && closed->patches[closed_index] == k) ||

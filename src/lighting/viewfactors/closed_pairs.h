@@ -25,7 +25,7 @@ typedef struct aur_ray_hits {
     /* The patches that hit a patch: sources[starts[i]] .. sources[starts[i + 1] - 1]; places[...] are its
      * indices in their lists. */
     size_t *starts;
-    uint32_t *sources, *places;
+    uint32_t *sources, *hit_indices;
 } aur_ray_hits;
 
 /* Errors: CANCELLED, MEMORY. */

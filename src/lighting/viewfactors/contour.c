@@ -132,8 +132,8 @@ static double integrate_piece(const outer *o, double a, double b) {
     if (length > o->smallest)
         for (size_t i = 0; i < o->count; ++i) {
             const singularity *const s = &o->singularities[i];
-            const double beside = fmax(fmax(a - s->position, s->position - b), 0.0);
-            if (beside * beside + s->height * s->height < length * length)
+            const double distance = fmax(fmax(a - s->position, s->position - b), 0.0);
+            if (distance * distance + s->height * s->height < length * length)
                 return integrate_piece(o, a, 0.5 * (a + b)) + integrate_piece(o, 0.5 * (a + b), b);
         }
     return apply_rule(o, &rules[TEN], a, b);

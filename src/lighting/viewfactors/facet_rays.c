@@ -42,17 +42,17 @@ aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double
     options.dimension = DIMENSIONS;
     options.scramble = AUR_SCRAMBLE_OWEN;
     options.seed = seed;
-    aur_pointset *made = NULL;
-    aur_result result = aur_pointset_create(set, &options, &made, error);
+    aur_pointset *generator = NULL;
+    aur_result result = aur_pointset_create(set, &options, &generator, error);
     if (result == AUR_ERROR_UNSUPPORTED) { /* a set without scrambling: the random shifts suffice */
         options.scramble = AUR_SCRAMBLE_NONE;
-        result = aur_pointset_create(set, &options, &made, error);
+        result = aur_pointset_create(set, &options, &generator, error);
     }
-    if (result == AUR_OK && aur_pointset_dimension(made) < DIMENSIONS)
+    if (result == AUR_OK && aur_pointset_dimension(generator) < DIMENSIONS)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "set '%s' has no four dimensions", set);
     if (result == AUR_OK)
-        result = aur_pointset_points(made, 0, count, DIMENSIONS * count, points, error);
-    aur_pointset_destroy(made);
+        result = aur_pointset_points(generator, 0, count, DIMENSIONS * count, points, error);
+    aur_pointset_destroy(generator);
     return result;
 }
 
@@ -63,8 +63,8 @@ static void fill_pattern(const double *points, const ordered_point *order, aur_f
         pattern->squared[i] = (float)point[0];
         pattern->around[0][i] = (float)cos(angle);
         pattern->around[1][i] = (float)sin(angle);
-        pattern->place[0][i] = (float)point[2];
-        pattern->place[1][i] = (float)point[3];
+        pattern->origins[0][i] = (float)point[2];
+        pattern->origins[1][i] = (float)point[3];
     }
 }
 
@@ -86,7 +86,7 @@ aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed
         qsort(order, count, sizeof *order, compare_points);
         pattern->squared = numbers;
         for (size_t d = 0; d < 2; ++d) {
-            pattern->place[d] = numbers + (1 + d) * count;
+            pattern->origins[d] = numbers + (1 + d) * count;
             pattern->around[d] = numbers + (3 + d) * count;
         }
         fill_pattern(points, order, pattern);
@@ -154,19 +154,19 @@ static void fill_packet(const aur_facet_pattern *pattern, const emitter *e, cons
                         size_t first, struct RTCRay16 *rays) {
     for (size_t k = 0; k < LANES; ++k) {
         const size_t i = first + k < pattern->count ? first + k : pattern->count - 1;
-        const float root = sqrtf(shifted(pattern->place[0][i], shift[0]));
-        float v = root * shifted(pattern->place[1][i], shift[1]), u = root - v;
+        const float root = sqrtf(shifted(pattern->origins[0][i], shift[0]));
+        float v = root * shifted(pattern->origins[1][i], shift[1]), u = root - v;
         u += e->inset * (1.0f - 3.0f * u);
         v += e->inset * (1.0f - 3.0f * v);
-        float place[3];
+        float origin[3];
         for (int d = 0; d < 3; ++d)
-            place[d] = e->corner[d] + u * e->edge[0][d] + v * e->edge[1][d];
+            origin[d] = e->corner[d] + u * e->edge[0][d] + v * e->edge[1][d];
         const float squared = shifted(pattern->squared[i], shift[2]);
         const float sine = sqrtf(squared), cosine = sqrtf(aur_larger(1.0f - squared, 1e-12f));
         const float a = sine * pattern->around[0][i], b = sine * pattern->around[1][i];
-        rays->org_x[k] = place[0] + e->offset * e->normal[0];
-        rays->org_y[k] = place[1] + e->offset * e->normal[1];
-        rays->org_z[k] = place[2] + e->offset * e->normal[2];
+        rays->org_x[k] = origin[0] + e->offset * e->normal[0];
+        rays->org_y[k] = origin[1] + e->offset * e->normal[1];
+        rays->org_z[k] = origin[2] + e->offset * e->normal[2];
         rays->dir_x[k] = a * e->axis[0][0] + b * e->axis[1][0] + cosine * e->normal[0];
         rays->dir_y[k] = a * e->axis[0][1] + b * e->axis[1][1] + cosine * e->normal[1];
         rays->dir_z[k] = a * e->axis[0][2] + b * e->axis[1][2] + cosine * e->normal[2];

@@ -14,9 +14,9 @@
 typedef struct aur_facet_pattern {
     size_t count;
     uint64_t seed;
-    float *place[2];  /* coordinates of the origins */
-    float *squared;   /* squared sine of the direction to the normal */
-    float *around[2]; /* cosine and sine of the angle about the normal */
+    float *origins[2]; /* coordinates of the origins */
+    float *squared;    /* squared sine of the direction to the normal */
+    float *around[2];  /* cosine and sine of the angle about the normal */
 } aur_facet_pattern;
 
 /* points[count][4] of SET, scrambled if supported. Errors: those of aur_pointset_create; UNSUPPORTED for

@@ -204,7 +204,7 @@ static aur_result make_rows(aur_facets *facets, const aur_facets_options *option
 }
 
 static aur_result load_scene(const char *path, aur_overlap_rule rule, const aur_facets_options *options,
-                             bool mesh, const aur_vs3 *surfaces, aur_scene **made, aur_error *error) {
+                             bool mesh, const aur_vs3 *surfaces, aur_scene **loaded, aur_error *error) {
     aur_scene_options scene = {.size = sizeof scene};
     aur_scene_options_init(&scene, NULL);
     scene.model_light = AUR_MODEL_LIGHT_NONE; /* no studio either: its ground would be a facet */
@@ -215,14 +215,14 @@ static aur_result load_scene(const char *path, aur_overlap_rule rule, const aur_
     scene.definitions = options->definitions;
     scene.further_count = options->further_count;
     scene.further = options->further;
-    return mesh ? load_mesh(path, rule, &scene, made, error)
-                : aur_scene_load_with_points(path, surfaces->length, surfaces->text, rule, &scene, made,
+    return mesh ? load_mesh(path, rule, &scene, loaded, error)
+                : aur_scene_load_with_points(path, surfaces->length, surfaces->text, rule, &scene, loaded,
                                              error);
 }
 
-static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **made,
+static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **loaded,
                        aur_error *error) {
-    *made = NULL;
+    *loaded = NULL;
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_facets_options", error);
@@ -270,7 +270,7 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
         aur_facets_destroy(facets);
         return result;
     }
-    *made = facets;
+    *loaded = facets;
     return AUR_OK;
 }
 

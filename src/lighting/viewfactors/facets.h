@@ -54,9 +54,9 @@ typedef struct aur_vs3 {
 } aur_vs3;
 
 /* Errors: OPEN, FORMAT, UNSUPPORTED, MEMORY, with the line of the file. */
-aur_result aur_vs3_read(const char *path, aur_vs3 *made, aur_error *error);
+aur_result aur_vs3_read(const char *path, aur_vs3 *model, aur_error *error);
 /* The same from memory; `path` is for messages. */
-aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs3 *made, aur_error *error);
+aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs3 *model, aur_error *error);
 void aur_vs3_release(aur_vs3 *self);
 
 static inline size_t aur_facet_of(const aur_facets *facets, size_t patch) {

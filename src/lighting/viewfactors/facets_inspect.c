@@ -20,9 +20,9 @@ static void report(const aur_facets *facets, const aur_warnings *warnings, const
                    const char *what) {
     if (f->count == 0)
         return;
-    const aur_location place = {facets->path,
-                                facets->lines != NULL ? facets->lines[facets->sources[f->first]] : 0, 0};
-    aur_warn_at(warnings, place, "%zu %s (facet %zu is the first)", f->count, what,
+    const aur_location location = {facets->path,
+                                   facets->lines != NULL ? facets->lines[facets->sources[f->first]] : 0, 0};
+    aur_warn_at(warnings, location, "%zu %s (facet %zu is the first)", f->count, what,
                 (size_t)facets->sources[f->first]);
 }
 
@@ -44,12 +44,12 @@ static int compare_uses(const void *left, const void *right) {
     return (a->facet > b->facet) - (a->facet < b->facet);
 }
 
-static bool same_place(const use *a, const use *b) {
+static bool same_position(const use *a, const use *b) {
     return a->low == b->low && a->middle == b->middle && a->high == b->high;
 }
 
 /* Numbers the corner positions: equal coordinates have equal numbers. */
-static bool number_places(const aur_facets *facets, uint32_t *places) {
+static bool number_corners(const aur_facets *facets, uint32_t *corner_ids) {
     size_t slots = 16;
     while (slots < 6 * facets->count)
         slots *= 2;
@@ -71,7 +71,7 @@ static bool number_places(const aur_facets *facets, uint32_t *places) {
             slot = (slot + 1) & (slots - 1);
         if (table[slot] == UINT32_MAX)
             table[slot] = (uint32_t)i;
-        places[i] = table[slot];
+        corner_ids[i] = table[slot];
     }
     free(table);
     return true;
@@ -86,13 +86,13 @@ static void exchange(uint32_t *a, uint32_t *b, bool *turned) {
     *turned = !*turned;
 }
 
-static void find_sheets(const aur_facets *facets, const uint32_t *places, use *uses,
+static void find_sheets(const aur_facets *facets, const uint32_t *corner_ids, use *uses,
                         const aur_warnings *warnings) {
     size_t count = 0;
     for (size_t i = 0; i < facets->count; ++i) {
         if (facets->areas[i] == 0.0)
             continue;
-        use u = {places[3 * i], places[3 * i + 1], places[3 * i + 2], (uint32_t)i, false};
+        use u = {corner_ids[3 * i], corner_ids[3 * i + 1], corner_ids[3 * i + 2], (uint32_t)i, false};
         exchange(&u.low, &u.middle, &u.turned);
         exchange(&u.middle, &u.high, &u.turned);
         exchange(&u.low, &u.middle, &u.turned);
@@ -101,7 +101,7 @@ static void find_sheets(const aur_facets *facets, const uint32_t *places, use *u
     qsort(uses, count, sizeof *uses, compare_uses);
     finding inverted = {0};
     for (size_t i = 0, end; i < count; i = end)
-        for (end = i + 1; end < count && same_place(&uses[i], &uses[end]); ++end)
+        for (end = i + 1; end < count && same_position(&uses[i], &uses[end]); ++end)
             if (uses[i].turned != uses[end].turned)
                 find(&inverted, uses[end].facet);
     report(facets, warnings, &inverted, "facets lie back to back with others, a sheet without thickness");
@@ -118,22 +118,22 @@ static void report_overlaps(const aur_facets *facets, const aur_warnings *warnin
             pair[k] += mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
         }
     }
-    const aur_location place = {facets->path, facets->lines != NULL ? facets->lines[pair[1]] : 0, 0};
+    const aur_location location = {facets->path, facets->lines != NULL ? facets->lines[pair[1]] : 0, 0};
     if (found->count > 0)
         aur_warn_at(
-            warnings, place,
+            warnings, location,
             "%zu facets lie in the plane of others that come first in the file, and are cut where those "
             "cover them (the first is facet %zu of '%s', behind facet %zu of '%s')",
             found->count, pair[1], facets->names[facets->source_groups[pair[1]]], pair[0],
             facets->names[facets->source_groups[pair[0]]]);
 }
 
-static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
+static void find_borders(aur_facets *facets, const uint32_t *corner_ids, use *uses,
                          const aur_warnings *warnings) {
     size_t count = 0;
     for (size_t i = 0; i < facets->count; ++i)
         for (size_t k = 0; k < 3 && facets->areas[i] > 0.0; ++k) {
-            use u = {places[3 * i + k], 0, places[3 * i + (k + 1) % 3], (uint32_t)i, false};
+            use u = {corner_ids[3 * i + k], 0, corner_ids[3 * i + (k + 1) % 3], (uint32_t)i, false};
             exchange(&u.low, &u.high, &u.turned);
             uses[count++] = u;
         }
@@ -141,7 +141,7 @@ static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
     finding open = {0}, disagreeing = {0};
     for (size_t i = 0, end; i < count; i = end) {
         size_t turned = 0;
-        for (end = i; end < count && same_place(&uses[i], &uses[end]); ++end)
+        for (end = i; end < count && same_position(&uses[i], &uses[end]); ++end)
             turned += uses[end].turned;
         if (end - i == 1)
             find(&open, uses[i].facet);
@@ -184,14 +184,14 @@ aur_result aur_facets_inspect(aur_facets *facets, const aur_warnings *warnings, 
     report(facets, warnings, &narrow,
            "facets are narrower than rays in floats resolve: their rows are not exact");
     report_overlaps(facets, warnings);
-    uint32_t *const places = malloc(3 * facets->count * sizeof *places);
+    uint32_t *const corner_ids = malloc(3 * facets->count * sizeof *corner_ids);
     use *const uses = malloc(3 * facets->count * sizeof *uses);
-    const bool good = places != NULL && uses != NULL && number_places(facets, places);
+    const bool good = corner_ids != NULL && uses != NULL && number_corners(facets, corner_ids);
     if (good) {
-        find_sheets(facets, places, uses, warnings);
-        find_borders(facets, places, uses, warnings);
+        find_sheets(facets, corner_ids, uses, warnings);
+        find_borders(facets, corner_ids, uses, warnings);
     }
-    free(places);
+    free(corner_ids);
     free(uses);
     return good ? AUR_OK : aur_fail_memory(error);
 }

@@ -243,20 +243,20 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
     return result;
 }
 
-static void write(const solution *s, double student, const aur_facets_radiosities *made) {
+static void write(const solution *s, double student, const aur_facets_radiosities *solved) {
     const double n = (double)s->randomizations;
     for (size_t i = 0; i < s->rows; ++i) {
         const double half_width = student * sqrt(s->squares[i] / (n * (n - 1.0)));
-        if (made->radiosity != NULL)
-            made->radiosity[i] = s->emissions[i] + s->reflectances[i] * s->total[i];
-        if (made->half_widths != NULL)
-            made->half_widths[i] = s->reflectances[i] * half_width;
-        if (made->sky != NULL)
-            made->sky[i] = s->sky_total[i];
-        if (made->incoming != NULL)
-            made->incoming[i] = s->total[i];
-        if (made->incoming_half_widths != NULL)
-            made->incoming_half_widths[i] = half_width;
+        if (solved->radiosity != NULL)
+            solved->radiosity[i] = s->emissions[i] + s->reflectances[i] * s->total[i];
+        if (solved->half_widths != NULL)
+            solved->half_widths[i] = s->reflectances[i] * half_width;
+        if (solved->sky != NULL)
+            solved->sky[i] = s->sky_total[i];
+        if (solved->incoming != NULL)
+            solved->incoming[i] = s->total[i];
+        if (solved->incoming_half_widths != NULL)
+            solved->incoming_half_widths[i] = half_width;
     }
 }
 
@@ -265,13 +265,13 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
                                   const aur_facets_radiosities *requested, aur_error *error) {
     aur_view_factors_options options;
     aur_facets_light light = {.size = sizeof light};
-    aur_facets_radiosities made = {.size = sizeof made};
+    aur_facets_radiosities solved = {.size = sizeof solved};
     aur_facets_light_init(&light, NULL);
     aur_result result = aur_view_factors_read_options(given, &options, error);
     if (result == AUR_OK)
         result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
     if (result == AUR_OK)
-        result = aur_options_read(requested, sizeof made, &made, "aur_facets_radiosities", error);
+        result = aur_options_read(requested, sizeof solved, &solved, "aur_facets_radiosities", error);
     if (result == AUR_OK)
         result = check(facets, factors, &light, error);
     if (result != AUR_OK)
@@ -289,11 +289,11 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
     if (result == AUR_OK)
         result = trace_sun(&s, error);
     if (result == AUR_OK)
-        result = solve(&s, made.half_widths != NULL || made.incoming_half_widths != NULL, error);
+        result = solve(&s, solved.half_widths != NULL || solved.incoming_half_widths != NULL, error);
     if (result == AUR_OK && !(mean(&s, s.total) + mean(&s, s.emissions) > 0.0))
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "no row sees the sky or the sun: there is no light");
     if (result == AUR_OK)
-        write(&s, aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence), &made);
+        write(&s, aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence), &solved);
     for (size_t i = 0; i < s.level_count; ++i)
         aur_facet_pattern_release(&s.patterns[i]);
     aur_facet_pattern_release(&s.sun_origins);

@@ -75,13 +75,13 @@ static aur_result write_companion(const aur_view_factors *f, const char *path, c
     const char *const slash = strrchr(path, '/');
     const int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
     const size_t size = strlen(path) + strlen(name) + 1;
-    char *const beside = malloc(size);
-    if (beside == NULL)
+    char *const companion = malloc(size);
+    if (companion == NULL)
         return aur_fail_memory(error);
-    snprintf(beside, size, "%.*s%s%s", folder, path, name, ending);
+    snprintf(companion, size, "%.*s%s%s", folder, path, name, ending);
     aur_file_writer writer;
-    aur_result result = aur_file_open(beside, &writer, error);
-    free(beside);
+    aur_result result = aur_file_open(companion, &writer, error);
+    free(companion);
     if (result != AUR_OK)
         return result;
     fprintf(writer.stream, "# %s\n", head);

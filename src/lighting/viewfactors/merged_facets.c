@@ -8,7 +8,7 @@
 /* A side of a polygon: the indices of its two corners, the smaller first. */
 typedef struct side {
     double ends[2][3];
-    uint32_t polygon, place;
+    uint32_t polygon, index;
     bool turned;
 } side;
 
@@ -47,7 +47,7 @@ static int direction_of(const side *s) {
     return axis;
 }
 
-static bool is_longest(const aur_merged_facet *polygon, size_t place) {
+static bool is_longest(const aur_merged_facet *polygon, size_t index) {
     double longest = 0.0, side_length = 0.0;
     for (size_t i = 0; i < polygon->count; ++i) {
         double edge[3];
@@ -55,7 +55,7 @@ static bool is_longest(const aur_merged_facet *polygon, size_t place) {
             edge[d] = polygon->corners[(i + 1) % polygon->count][d] - polygon->corners[i][d];
         const double length = aur_dot3(edge, edge);
         longest = fmax(longest, length);
-        side_length = i == place ? length : side_length;
+        side_length = i == index ? length : side_length;
     }
     return side_length > longest * (1.0 - 1e-6);
 }
@@ -96,11 +96,11 @@ static bool merge(const merging *work, const side *a, const side *b) {
     double loop[2 * AUR_MERGED_CORNERS][3];
     size_t count = 0;
     for (size_t i = 1; i <= into->count; ++i)
-        memcpy(loop[count++], into->corners[(a->place + i) % into->count], sizeof loop[0]);
+        memcpy(loop[count++], into->corners[(a->index + i) % into->count], sizeof loop[0]);
     const size_t joint = count - 1; /* and 0 */
     for (size_t i = 2; i < from->count; ++i)
-        memcpy(loop[count++], from->corners[(b->place + i) % from->count], sizeof loop[0]);
-    aur_merged_facet made = {0};
+        memcpy(loop[count++], from->corners[(b->index + i) % from->count], sizeof loop[0]);
+    aur_merged_facet merged = {0};
     for (size_t i = 0; i < count; ++i) {
         if (i == joint || i == 0) {
             const double turn =
@@ -110,11 +110,11 @@ static bool merge(const merging *work, const side *a, const side *b) {
             if (turn <= slack)
                 continue;
         }
-        if (made.count == AUR_MERGED_CORNERS)
+        if (merged.count == AUR_MERGED_CORNERS)
             return false;
-        memcpy(made.corners[made.count++], loop[i], sizeof loop[0]);
+        memcpy(merged.corners[merged.count++], loop[i], sizeof loop[0]);
     }
-    *into = made;
+    *into = merged;
     from->count = 0;
     return true;
 }
@@ -129,7 +129,7 @@ static size_t merge_round(merging *work, int axis) {
             side *const s = &work->sides[count];
             const double *const a = polygon->corners[k], *const b =
                                                              polygon->corners[(k + 1) % polygon->count];
-            *s = (side){.polygon = (uint32_t)i, .place = (uint32_t)k, .turned = compare_numbers(a, b) > 0};
+            *s = (side){.polygon = (uint32_t)i, .index = (uint32_t)k, .turned = compare_numbers(a, b) > 0};
             memcpy(s->ends[s->turned], a, sizeof s->ends[0]);
             memcpy(s->ends[!s->turned], b, sizeof s->ends[0]);
             count += axis < 0 ? is_longest(polygon, k) : direction_of(s) == axis;

@@ -48,14 +48,14 @@ static double find_rate(size_t count, size_t parts, const double *values) {
     for (size_t i = 0; i < count; ++i) {
         const double *const of = &values[parts * i];
         const double mean = mean_of(parts, of);
-        double own = 0.0;
+        double square = 0.0;
         for (size_t p = 0; p < parts; p += 2) {
             const double a = of[p] - mean, b = of[p + 1] - mean;
-            own += a * a + b * b;
+            square += a * a + b * b;
             paired += 0.5 * (a + b) * (a + b);
         }
-        single += own;
-        squares += own * own;
+        single += square;
+        squares += square * square;
     }
     if (!(paired > 0.0))
         return USUAL_RATE;

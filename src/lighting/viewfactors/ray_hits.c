@@ -103,14 +103,14 @@ static bool transpose(aur_ray_hits *ray_hits) {
         next[i + 1] += next[i];
     const size_t total = next[ray_hits->patch_count];
     ray_hits->sources = malloc((total + 1) * sizeof *ray_hits->sources);
-    ray_hits->places = malloc((total + 1) * sizeof *ray_hits->places);
-    if (ray_hits->sources == NULL || ray_hits->places == NULL)
+    ray_hits->hit_indices = malloc((total + 1) * sizeof *ray_hits->hit_indices);
+    if (ray_hits->sources == NULL || ray_hits->hit_indices == NULL)
         return false;
     for (size_t i = 0; i < ray_hits->patch_count; ++i)
         for (size_t k = 0; k < ray_hits->rows[i].count; ++k) {
             const size_t at = next[ray_hits->rows[i].patches[k]]++;
             ray_hits->sources[at] = (uint32_t)i;
-            ray_hits->places[at] = (uint32_t)k;
+            ray_hits->hit_indices[at] = (uint32_t)k;
         }
     return true;
 }
@@ -150,6 +150,6 @@ void aur_ray_hits_release(aur_ray_hits *ray_hits) {
     free(ray_hits->back);
     free(ray_hits->starts);
     free(ray_hits->sources);
-    free(ray_hits->places);
+    free(ray_hits->hit_indices);
     *ray_hits = (aur_ray_hits){0};
 }

@@ -96,41 +96,43 @@ static aur_result solve(const script_solution *s, size_t randomization, aur_erro
 }
 
 /* All pairs of rows with emittances above 0. */
-static aur_result finish(const script_solution *s, double student, aur_view_factors *made, aur_error *error) {
+static aur_result finish(const script_solution *s, double student, aur_view_factors *factors,
+                         aur_error *error) {
     const size_t n = s->rows, width = n + 1;
     const double parts = (double)s->from->randomizations;
-    made->starts = calloc(n + 1, sizeof *made->starts);
-    made->columns = calloc(n * n + 1, sizeof *made->columns);
-    made->values = calloc(n * n + 1, sizeof *made->values);
-    made->half_widths = calloc(n * n + 1, sizeof *made->half_widths);
-    double **const arrays[] = {&made->areas, &made->sky, &made->sky_half_widths, &made->back};
-    bool good =
-        made->starts != NULL && made->columns != NULL && made->values != NULL && made->half_widths != NULL;
+    factors->starts = calloc(n + 1, sizeof *factors->starts);
+    factors->columns = calloc(n * n + 1, sizeof *factors->columns);
+    factors->values = calloc(n * n + 1, sizeof *factors->values);
+    factors->half_widths = calloc(n * n + 1, sizeof *factors->half_widths);
+    double **const arrays[] = {&factors->areas, &factors->sky, &factors->sky_half_widths, &factors->back};
+    bool good = factors->starts != NULL && factors->columns != NULL && factors->values != NULL &&
+                factors->half_widths != NULL;
     for (size_t i = 0; i < 4; ++i)
         good = (*arrays[i] = calloc(n + 1, sizeof **arrays[i])) != NULL && good;
     if (s->from->name_width > 0)
-        good = (made->names = malloc(n * s->from->name_width)) != NULL && good;
+        good = (factors->names = malloc(n * s->from->name_width)) != NULL && good;
     if (!good)
         return aur_fail_memory(error);
-    made->rows = n;
-    made->name_width = s->from->name_width;
-    if (made->names != NULL)
-        memcpy(made->names, s->from->names, n * made->name_width);
-    memcpy(made->areas, s->from->areas, n * sizeof *made->areas);
+    factors->rows = n;
+    factors->name_width = s->from->name_width;
+    if (factors->names != NULL)
+        memcpy(factors->names, s->from->names, n * factors->name_width);
+    memcpy(factors->areas, s->from->areas, n * sizeof *factors->areas);
     uint64_t entry = 0;
     for (size_t i = 0; i < n; ++i) {
-        made->starts[i] = entry;
+        factors->starts[i] = entry;
         for (size_t k = 0; k < n; ++k) {
             if (!(s->found[width * i + k] > 0.0))
                 continue;
-            made->columns[entry] = (uint32_t)k;
-            made->values[entry] = s->found[width * i + k];
-            made->half_widths[entry++] = student * sqrt(s->squares[width * i + k] / (parts * (parts - 1.0)));
+            factors->columns[entry] = (uint32_t)k;
+            factors->values[entry] = s->found[width * i + k];
+            factors->half_widths[entry++] =
+                student * sqrt(s->squares[width * i + k] / (parts * (parts - 1.0)));
         }
-        made->sky[i] = s->found[width * i + n];
-        made->sky_half_widths[i] = student * sqrt(s->squares[width * i + n] / (parts * (parts - 1.0)));
+        factors->sky[i] = s->found[width * i + n];
+        factors->sky_half_widths[i] = student * sqrt(s->squares[width * i + n] / (parts * (parts - 1.0)));
     }
-    made->starts[n] = entry;
+    factors->starts[n] = entry;
     return AUR_OK;
 }
 
@@ -158,7 +160,7 @@ aur_result aur_view_factors_script(const aur_view_factors *factors, const double
         return result;
     const size_t n = factors->rows, entries = factors->starts[n];
     double *const numbers = calloc(entries + 4 * n + 2 * n * (n + 1) + 1, sizeof *numbers);
-    aur_view_factors *const made = calloc(1, sizeof *made);
+    aur_view_factors *const created = calloc(1, sizeof *created);
     script_solution s = {.from = factors, .emittances = emittances, .rows = n, .values = numbers};
     if (numbers != NULL) {
         s.sky = numbers + entries;
@@ -168,20 +170,20 @@ aur_result aur_view_factors_script(const aur_view_factors *factors, const double
         s.found = s.sum + n;
         s.squares = s.found + n * (n + 1);
     }
-    result =
-        numbers != NULL && made != NULL ? solve(&s, factors->randomizations, error) : aur_fail_memory(error);
+    result = numbers != NULL && created != NULL ? solve(&s, factors->randomizations, error)
+                                                : aur_fail_memory(error);
     for (size_t r = 0; r < factors->randomizations && result == AUR_OK; ++r)
         result = solve(&s, r, error);
     const double level = confidence > 0.0 ? confidence : 0.95;
     if (result == AUR_OK)
         result =
-            finish(&s, aur_student_quantile(factors->randomizations - 1, 0.5 + 0.5 * level), made, error);
+            finish(&s, aur_student_quantile(factors->randomizations - 1, 0.5 + 0.5 * level), created, error);
     free(numbers);
     if (result != AUR_OK) {
-        aur_view_factors_destroy(made);
+        aur_view_factors_destroy(created);
         return result;
     }
-    made->description = (aur_view_factors_description){.size = sizeof made->description};
-    *script = made;
+    created->description = (aur_view_factors_description){.size = sizeof created->description};
+    *script = created;
     return AUR_OK;
 }

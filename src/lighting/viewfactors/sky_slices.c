@@ -107,25 +107,25 @@ aur_result aur_sky_slices_create(const aur_facets *facets, const char *set, size
                                  size_t randomizations, uint64_t seed, aur_sky_slices **slices,
                                  aur_error *error) {
     const size_t all = count * randomizations;
-    aur_sky_slices *const made = calloc(1, sizeof *made);
+    aur_sky_slices *const created = calloc(1, sizeof *created);
     double *const points = malloc(4 * all * sizeof *points);
-    aur_result result = made != NULL && points != NULL ? AUR_OK : aur_fail_memory(error);
+    aur_result result = created != NULL && points != NULL ? AUR_OK : aur_fail_memory(error);
     if (result == AUR_OK) {
-        *made = (aur_sky_slices){
+        *created = (aur_sky_slices){
             .facets = facets, .count = count, .randomizations = randomizations, .seed = seed};
-        made->points = malloc(4 * all * sizeof *made->points);
-        choose_axis(facets, made);
-        result =
-            made->points != NULL ? aur_facet_points(set, all, seed, points, error) : aur_fail_memory(error);
+        created->points = malloc(4 * all * sizeof *created->points);
+        choose_axis(facets, created);
+        result = created->points != NULL ? aur_facet_points(set, all, seed, points, error)
+                                         : aur_fail_memory(error);
     }
     for (size_t i = 0; result == AUR_OK && i < 4 * all; ++i)
-        made->points[i] = (float)points[i];
+        created->points[i] = (float)points[i];
     if (result == AUR_OK)
-        result = make_tree(facets, made, error);
+        result = make_tree(facets, created, error);
     free(points);
     if (result != AUR_OK)
-        aur_sky_slices_destroy(made);
-    *slices = result == AUR_OK ? made : NULL;
+        aur_sky_slices_destroy(created);
+    *slices = result == AUR_OK ? created : NULL;
     return result;
 }
 
@@ -203,15 +203,15 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
 }
 
 /* Whether a facet that float rays cannot separate covers the point: then no sky is seen from there. */
-static bool is_covered(const aur_facets *facets, size_t patch, const float place[2]) {
+static bool is_covered(const aur_facets *facets, size_t patch, const float position[2]) {
     const size_t facet = aur_facet_of(facets, patch);
     if (facets->cover_starts == NULL || facets->cover_starts[facet] == facets->cover_starts[facet + 1])
         return false;
     double corners[3][3], origin[3];
     aur_patch_corners(facets, patch, corners);
     for (int d = 0; d < 3; ++d)
-        origin[d] = corners[0][d] + (double)place[0] * (corners[1][d] - corners[0][d]) +
-                    (double)place[1] * (corners[2][d] - corners[0][d]);
+        origin[d] = corners[0][d] + (double)position[0] * (corners[1][d] - corners[0][d]) +
+                    (double)position[1] * (corners[2][d] - corners[0][d]);
     return aur_facets_first_met(facets, facet, origin, aur_patch_plane(facets, patch).normal, SIZE_MAX) !=
            SIZE_MAX;
 }
@@ -228,10 +228,10 @@ static void trace_slices(const aur_sky_slices *s, size_t patch_index, const view
         for (size_t l = 0; l < LANES; ++l) {
             const aur_slice_sample *const one = &samples[first + l < count ? first + l : count - 1];
             for (int d = 0; d < 3; ++d)
-                packet.origin[d][l] =
-                    patch->corner[d] + one->place[0] * patch->edge[0][d] + one->place[1] * patch->edge[1][d];
-            packet.way[0][l] = one->way[0];
-            packet.way[1][l] = one->way[1];
+                packet.origin[d][l] = patch->corner[d] + one->position[0] * patch->edge[0][d] +
+                                      one->position[1] * patch->edge[1][d];
+            packet.way[0][l] = one->direction[0];
+            packet.way[1][l] = one->direction[1];
             packet.jitter[l] = one->jitter;
         }
         aur_slice_parts parts;
@@ -239,7 +239,7 @@ static void trace_slices(const aur_sky_slices *s, size_t patch_index, const view
         for (size_t l = 0; l < LANES && first + l < count; ++l) {
             const aur_slice_sample *const one = &samples[first + l];
             wholes[one->randomization] += (double)one->weight * (double)parts.whole[l];
-            if (!is_covered(s->facets, patch_index, one->place))
+            if (!is_covered(s->facets, patch_index, one->position))
                 sky[one->randomization] += (double)one->weight * (double)parts.sky[l];
         }
     }

@@ -35,7 +35,7 @@ typedef struct aur_slice_patch {
 } aur_slice_patch;
 
 typedef struct aur_slice_sample {
-    float way[2], place[2], jitter, weight;
+    float direction[2], position[2], jitter, weight;
     uint32_t randomization, bucket;
 } aur_slice_sample;
 

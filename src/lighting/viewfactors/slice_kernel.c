@@ -173,11 +173,11 @@ APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, co
     }
     for (int w = 0; w < AUR_SLICE_WORDS; ++w)
         for (unsigned l = 0; l < LANES; ++l) {
-            const int32_t skipped = begin[l] - 32 * w, kept = end[l] - 32 * w;
+            const int32_t skipped = begin[l] - 32 * w, below = end[l] - 32 * w;
             const uint32_t without = (UINT32_C(1) << (skipped & 31)) - 1,
-                           with = (UINT32_C(1) << (kept & 31)) - 1;
+                           with = (UINT32_C(1) << (below & 31)) - 1;
             const uint32_t low = skipped >= 32 ? UINT32_MAX : skipped > 0 ? without : 0;
-            const uint32_t high = kept >= 32 ? UINT32_MAX : kept > 0 ? with : 0;
+            const uint32_t high = below >= 32 ? UINT32_MAX : below > 0 ? with : 0;
             hidden->bits[w][l] |= high & ~low;
         }
     return rises != 0;

@@ -14,7 +14,7 @@ static float shifted(float x, float shift) {
 
 /* Azimuths are uniform for a horizontal patch and proportional to the cosine for a vertical one, like the
  * view; for others the pdf is a mixture of both. */
-static void choose_way(const aur_slice_patch *patch, double u, aur_slice_sample *made) {
+static void choose_direction(const aur_slice_patch *patch, double u, aur_slice_sample *sample) {
     double c, s;
     if (u < patch->upright) {
         s = 2.0 * u / patch->upright - 1.0;
@@ -24,23 +24,23 @@ static void choose_way(const aur_slice_patch *patch, double u, aur_slice_sample 
         c = cos(angle);
         s = sin(angle);
     }
-    made->way[0] = (float)(c * patch->ahead[0] - s * patch->ahead[1]);
-    made->way[1] = (float)(c * patch->ahead[1] + s * patch->ahead[0]);
-    made->weight =
+    sample->direction[0] = (float)(c * patch->ahead[0] - s * patch->ahead[1]);
+    sample->direction[1] = (float)(c * patch->ahead[1] + s * patch->ahead[0]);
+    sample->weight =
         (float)(1.0 / ((1.0 - patch->upright) / (2.0 * AUR_PI) + patch->upright * fmax(0.0, c) / 2.0));
-    made->bucket = (uint32_t)(fmin(u, 1.0 - 0x1p-24) * BUCKETS);
+    sample->bucket = (uint32_t)(fmin(u, 1.0 - 0x1p-24) * BUCKETS);
 }
 
 /* The plane of a half plane intersects the patch in a chord. Horizons jump between planes, at vertical edges,
  * and never along a chord. So jumps are in two coordinates of the points: the azimuth, and the choice among
  * the parallel planes (`u`, proportional to the chord's length). The third coordinate, the position on the
  * chord (`w`), is smooth. */
-static void choose_place(const aur_slice_patch *patch, float u, float w, aur_slice_sample *made) {
+static void choose_position(const aur_slice_patch *patch, float u, float w, aur_slice_sample *sample) {
     float across[3] = {0.0f}, along[3] = {0.0f};
     for (int k = 0; k < 2; ++k) {
         const float *const edge = patch->edge[k];
-        across[k + 1] = made->way[0] * edge[1] - made->way[1] * edge[0];
-        along[k + 1] = made->way[0] * edge[0] + made->way[1] * edge[1];
+        across[k + 1] = sample->direction[0] * edge[1] - sample->direction[1] * edge[0];
+        along[k + 1] = sample->direction[0] * edge[0] + sample->direction[1] * edge[1];
     }
     int low = 0, high = 0;
     for (int k = 1; k < 3; ++k) {
@@ -68,29 +68,29 @@ static void choose_place(const aur_slice_patch *patch, float u, float w, aur_sli
             reach[e] += ends[e][k] * along[k];
     const int rear = reach[1] < reach[0];
     for (int d = 0; d < 2; ++d) {
-        const float place = ends[rear][d + 1] + w * (ends[!rear][d + 1] - ends[rear][d + 1]);
-        made->place[d] = place + patch->inset * (1.0f - 3.0f * place);
+        const float coordinate = ends[rear][d + 1] + w * (ends[!rear][d + 1] - ends[rear][d + 1]);
+        sample->position[d] = coordinate + patch->inset * (1.0f - 3.0f * coordinate);
     }
 }
 
 void aur_slice_samples_draw(const aur_slice_patch *patch, size_t randomizations, size_t count,
                             const float *points, uint64_t hash, aur_slice_sample *unordered,
                             aur_slice_sample *ordered) {
-    size_t starts[BUCKETS + 1] = {0}, made = 0;
+    size_t starts[BUCKETS + 1] = {0}, drawn = 0;
     float shift[4];
     for (size_t d = 0; d < 4; ++d)
         shift[d] = aur_unit_float((uint32_t)(aur_hash2(hash, d) >> 32));
     for (size_t r = 0; r < randomizations; ++r)
         for (size_t i = 0; i < count; ++i) {
-            const float *const point = &points[4 * made];
-            aur_slice_sample *const one = &unordered[made++];
+            const float *const point = &points[4 * drawn];
+            aur_slice_sample *const one = &unordered[drawn++];
             *one = (aur_slice_sample){.randomization = (uint32_t)r, .jitter = shifted(point[3], shift[3])};
-            choose_way(patch, (double)shifted(point[0], shift[0]), one);
-            choose_place(patch, shifted(point[1], shift[1]), shifted(point[2], shift[2]), one);
+            choose_direction(patch, (double)shifted(point[0], shift[0]), one);
+            choose_position(patch, shifted(point[1], shift[1]), shifted(point[2], shift[2]), one);
             ++starts[one->bucket + 1];
         }
     for (size_t b = 0; b < BUCKETS; ++b)
         starts[b + 1] += starts[b];
-    for (size_t i = 0; i < made; ++i)
+    for (size_t i = 0; i < drawn; ++i)
         ordered[starts[unordered[i].bucket]++] = unordered[i];
 }

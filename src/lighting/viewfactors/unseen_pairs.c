@@ -51,7 +51,7 @@ static bool is_met(const filling *work, size_t i) {
     const size_t width = ray_hits->randomizations;
     for (size_t k = ray_hits->starts[i]; k < ray_hits->starts[i + 1]; ++k) {
         const uint16_t *const hits =
-            &ray_hits->rows[ray_hits->sources[k]].hits[width * (size_t)ray_hits->places[k]];
+            &ray_hits->rows[ray_hits->sources[k]].hits[width * (size_t)ray_hits->hit_indices[k]];
         for (size_t r = 0; r < width; ++r)
             if (hits[r] > 0 && !is_closed(work, i, ray_hits->sources[k]))
                 return true;

@@ -58,75 +58,75 @@ aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
 }
 
 /* Converts exchanges to factors. */
-static void finish(aur_exchange *g, aur_view_factors *made) {
-    made->columns = g->columns;
-    made->starts = g->starts;
-    made->values = g->values;
-    made->half_widths = g->half_widths;
-    made->areas = g->areas;
-    made->sky = g->sky;
-    made->sky_half_widths = g->sky_half_widths;
-    made->back = g->back;
-    made->rows = g->rows;
-    made->randomizations = g->randomizations;
-    made->deviations = g->deviations;
-    made->sky_deviations = g->loss_deviations; /* those of backs follow */
+static void finish(aur_exchange *g, aur_view_factors *factors) {
+    factors->columns = g->columns;
+    factors->starts = g->starts;
+    factors->values = g->values;
+    factors->half_widths = g->half_widths;
+    factors->areas = g->areas;
+    factors->sky = g->sky;
+    factors->sky_half_widths = g->sky_half_widths;
+    factors->back = g->back;
+    factors->rows = g->rows;
+    factors->randomizations = g->randomizations;
+    factors->deviations = g->deviations;
+    factors->sky_deviations = g->loss_deviations; /* those of backs follow */
     g->deviations = NULL;
     g->loss_deviations = NULL;
     g->columns = NULL;
     g->starts = NULL;
     g->values = g->half_widths = g->areas = g->sky = g->sky_half_widths = g->back = NULL;
     double total = 0.0;
-    for (size_t a = 0; a < made->rows; ++a) {
-        const double area = made->areas[a] > 0.0 ? made->areas[a] : 1.0;
-        for (uint64_t e = made->starts[a]; e < made->starts[a + 1]; ++e) {
-            total += made->values[e];
-            made->values[e] /= area;
-            made->half_widths[e] /= area;
+    for (size_t a = 0; a < factors->rows; ++a) {
+        const double area = factors->areas[a] > 0.0 ? factors->areas[a] : 1.0;
+        for (uint64_t e = factors->starts[a]; e < factors->starts[a + 1]; ++e) {
+            total += factors->values[e];
+            factors->values[e] /= area;
+            factors->half_widths[e] /= area;
         }
-        made->sky[a] /= area;
-        made->sky_half_widths[a] /= area;
-        made->back[a] /= area;
+        factors->sky[a] /= area;
+        factors->sky_half_widths[a] /= area;
+        factors->back[a] /= area;
     }
-    made->description.closed_share = total > 0.0 ? fmin(g->closed_total / total, 1.0) : 0.0;
+    factors->description.closed_share = total > 0.0 ? fmin(g->closed_total / total, 1.0) : 0.0;
 }
 
-static aur_result copy_names(const aur_facets *facets, aur_view_factors *made, aur_error *error) {
+static aur_result copy_names(const aur_facets *facets, aur_view_factors *factors, aur_error *error) {
     if (!facets->grouped)
         return AUR_OK;
     for (size_t i = 0; i < facets->group_count; ++i)
-        if (strlen(facets->names[i]) > made->name_width)
-            made->name_width = strlen(facets->names[i]);
-    made->name_width += made->name_width == 0;
-    made->names = calloc(made->rows, made->name_width);
-    if (made->names == NULL)
+        if (strlen(facets->names[i]) > factors->name_width)
+            factors->name_width = strlen(facets->names[i]);
+    factors->name_width += factors->name_width == 0;
+    factors->names = calloc(factors->rows, factors->name_width);
+    if (factors->names == NULL)
         return aur_fail_memory(error);
-    for (size_t i = 0; i < made->rows; ++i) {
+    for (size_t i = 0; i < factors->rows; ++i) {
         const char *const name = aur_facets_name(facets, i);
-        memcpy(&made->names[made->name_width * i], name, strlen(name));
+        memcpy(&factors->names[factors->name_width * i], name, strlen(name));
     }
     return AUR_OK;
 }
 
 /* One or two rays may have passed between adjacent facets because of rounded origins: no warning for back
  * hits below `least` of the light. */
-static void warn(const aur_facets *facets, const aur_view_factors *made, const aur_balance *balance,
+static void warn(const aur_facets *facets, const aur_view_factors *factors, const aur_balance *balance,
                  double least, const aur_warnings *warnings) {
-    const aur_location place = {.file = facets->path};
+    const aur_location location = {.file = facets->path};
     size_t count = 0;
     double most = 0.0;
-    for (size_t a = 0; a < made->rows; ++a) {
-        count += made->back[a] > least;
-        most = fmax(most, made->back[a]);
+    for (size_t a = 0; a < factors->rows; ++a) {
+        count += factors->back[a] > least;
+        most = fmax(most, factors->back[a]);
     }
     if (count > 0)
-        aur_warn_at(warnings, place,
+        aur_warn_at(warnings, location,
                     "%zu rows see backs of facets, up to %.3g of what leaves them: the surfaces are open, or "
                     "inside out, or see on both sides",
                     count, most);
     if (balance->unbalanced > 0)
         aur_warn_at(
-            warnings, place,
+            warnings, location,
             "%zu rows cannot be made to add up to 1 with symmetric exchanges, the worst is off by %.3g",
             balance->unbalanced, balance->after);
 }
@@ -155,7 +155,7 @@ static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_o
 }
 
 static aur_result compute(const aur_facets *facets, const aur_view_factors_options *options,
-                          aur_view_factors *made, aur_error *error) {
+                          aur_view_factors *factors, aur_error *error) {
     const aur_parallel_options parallel = {.threads = options->threads, .progress = options->progress};
     aur_facet_pattern pattern = {0};
     aur_ray_hits ray_hits = {0};
@@ -187,8 +187,8 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     if (result == AUR_OK)
         result = aur_exchange_balance(&exchange, &parallel, &balance, error);
     if (result == AUR_OK) {
-        made->description =
-            (aur_view_factors_description){.size = sizeof made->description,
+        factors->description =
+            (aur_view_factors_description){.size = sizeof factors->description,
                                            .rays = aur_rays_traced - before,
                                            .closed_pairs = exchange.closed_pairs,
                                            .sampled_pairs = exchange.sampled_pairs,
@@ -196,9 +196,9 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
                                            .raw_row_error = balance.before,
                                            .moved = balance.moved,
                                            .unseen = -log(0.5 - 0.5 * options->confidence) / (double)rays};
-        finish(&exchange, made);
-        result = copy_names(facets, made, error);
-        warn(facets, made, &balance, 2.5 / (double)rays, &options->warnings);
+        finish(&exchange, factors);
+        result = copy_names(facets, factors, error);
+        warn(facets, factors, &balance, 2.5 / (double)rays, &options->warnings);
     }
     aur_facet_pattern_release(&pattern);
     aur_exchange_release(&exchange);
@@ -206,12 +206,12 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
 }
 
 /* For the intervals of factors and sky. */
-static double find_widest(const aur_view_factors *made) {
+static double find_widest(const aur_view_factors *factors) {
     double widest = 0.0;
-    for (uint64_t e = 0; e < made->starts[made->rows]; ++e)
-        widest = fmax(widest, made->half_widths[e]);
-    for (size_t i = 0; i < made->rows; ++i)
-        widest = fmax(widest, made->sky_half_widths[i]);
+    for (uint64_t e = 0; e < factors->starts[factors->rows]; ++e)
+        widest = fmax(widest, factors->half_widths[e]);
+    for (size_t i = 0; i < factors->rows; ++i)
+        widest = fmax(widest, factors->sky_half_widths[i]);
     return widest;
 }
 
@@ -223,13 +223,13 @@ aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_fact
     if (result != AUR_OK)
         return result;
     for (;;) {
-        aur_view_factors *const made = calloc(1, sizeof *made);
-        result = made != NULL ? compute(facets, &options, made, error) : aur_fail_memory(error);
+        aur_view_factors *const created = calloc(1, sizeof *created);
+        result = created != NULL ? compute(facets, &options, created, error) : aur_fail_memory(error);
         if (result != AUR_OK) {
-            aur_view_factors_destroy(made);
+            aur_view_factors_destroy(created);
             return result;
         }
-        const double widest = options.error > 0.0 ? find_widest(made) : 0.0;
+        const double widest = options.error > 0.0 ? find_widest(created) : 0.0;
         const bool more = 2 * options.rays <= MOST_RAYS * options.randomizations;
         if (widest <= options.error || !more) {
             if (widest > options.error)
@@ -237,14 +237,14 @@ aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_fact
                             "%zu rays are the most, and half widths are up to %.3g: the error of %g is not "
                             "reached",
                             options.rays, widest, options.error);
-            *factors = made;
+            *factors = created;
             return AUR_OK;
         }
-        aur_view_factors_destroy(made);
+        aur_view_factors_destroy(created);
         /* The error of rays falls with the inverse root of their number. */
-        for (double lack = widest;
-             lack > options.error && 2 * options.rays <= MOST_RAYS * options.randomizations;
-             lack *= 0.70710678118654752) {
+        for (double excess = widest;
+             excess > options.error && 2 * options.rays <= MOST_RAYS * options.randomizations;
+             excess *= 0.70710678118654752) {
             options.rays *= 2;
             options.half_planes = usual_half_planes(&options);
         }

@@ -30,7 +30,7 @@ typedef struct reading {
     double (*vertices)[3];
     surface *surfaces;
     size_t vertex_count, vertex_capacity, surface_count, surface_capacity, name_capacity, emittance_capacity;
-    aur_vs3 *made;
+    aur_vs3 *model;
     aur_error *error;
 } reading;
 
@@ -102,21 +102,22 @@ static aur_result read_vertex(reading *self) {
 
 static aur_result add_name(reading *self, double emittance) {
     const line *const l = &self->line;
-    aur_vs3 *const made = self->made;
+    aur_vs3 *const model = self->model;
     const size_t count = self->surface_count;
-    if (!aur_array_reserve(&made->names, &self->name_capacity, count + 1, sizeof *made->names) ||
-        !aur_array_reserve(&made->emittances, &self->emittance_capacity, count + 1, sizeof *made->emittances))
+    if (!aur_array_reserve(&model->names, &self->name_capacity, count + 1, sizeof *model->names) ||
+        !aur_array_reserve(&model->emittances, &self->emittance_capacity, count + 1,
+                           sizeof *model->emittances))
         return aur_fail_memory(self->error);
-    made->emittances[count] = emittance;
-    made->names[count] = l->count > 9 ? strndup(l->words[9], l->lengths[9]) : strdup("");
-    made->name_count += made->names[count] != NULL;
-    return made->names[count] != NULL ? AUR_OK : aur_fail_memory(self->error);
+    model->emittances[count] = emittance;
+    model->names[count] = l->count > 9 ? strndup(l->words[9], l->lengths[9]) : strdup("");
+    model->name_count += model->names[count] != NULL;
+    return model->names[count] != NULL ? AUR_OK : aur_fail_memory(self->error);
 }
 
 /* S n v1 v2 v3 v4 base combined emittance name */
 static aur_result read_surface(reading *self) {
     const line *const l = &self->line;
-    surface made = {.line = l->number};
+    surface parsed = {.line = l->number};
     size_t number = 0;
     double emittance = 1.0;
     if (!read_index(l, 1, SIZE_MAX / 2, &number) || number != self->surface_count + 1)
@@ -125,24 +126,24 @@ static aur_result read_surface(reading *self) {
         size_t vertex;
         if (!read_index(l, 2 + i, self->vertex_count, &vertex) || (vertex == 0 && i < 3))
             return fail(self, l->number, AUR_ERROR_FORMAT, "S: numbers of vertices above expected");
-        made.corners[made.count] = vertex - 1;
-        made.count += vertex > 0;
+        parsed.corners[parsed.count] = vertex - 1;
+        parsed.count += vertex > 0;
     }
-    if (!read_index(l, 6, self->surface_count, &made.base) ||
-        !read_index(l, 7, self->surface_count, &made.leader))
+    if (!read_index(l, 6, self->surface_count, &parsed.base) ||
+        !read_index(l, 7, self->surface_count, &parsed.leader))
         return fail(self, l->number, AUR_ERROR_FORMAT,
                     "S: base and combined surface must be 0 or the number of a surface above");
-    made.depth = made.base > 0 ? self->surfaces[made.base - 1].depth + 1 : 0;
-    if (made.depth > DEEPEST)
+    parsed.depth = parsed.base > 0 ? self->surfaces[parsed.base - 1].depth + 1 : 0;
+    if (parsed.depth > DEEPEST)
         return fail(self, l->number, AUR_ERROR_UNSUPPORTED, "S: more than 16 surfaces on each other");
-    if (made.leader > 0 && self->surfaces[made.leader - 1].leader > 0)
+    if (parsed.leader > 0 && self->surfaces[parsed.leader - 1].leader > 0)
         return fail(self, l->number, AUR_ERROR_FORMAT, "S: combined with a surface that is combined itself");
     if (l->count > 8 && !(read_number(l, 8, &emittance) && emittance >= 0.0 && emittance <= 1.0))
         return fail(self, l->number, AUR_ERROR_FORMAT, "S: an emittance from 0 to 1 expected");
     if (!aur_array_reserve(&self->surfaces, &self->surface_capacity, self->surface_count + 1,
                            sizeof *self->surfaces))
         return aur_fail_memory(self->error);
-    self->surfaces[self->surface_count] = made;
+    self->surfaces[self->surface_count] = parsed;
     const aur_result result = add_name(self, emittance);
     self->surface_count += result == AUR_OK;
     return result;
@@ -184,13 +185,13 @@ static void write_surface(const reading *self, size_t index, size_t *lines, FILE
 
 /* Groups are surfaces that are not combined with others, in their order. */
 static aur_result write_scene(reading *self) {
-    aur_vs3 *const made = self->made;
+    aur_vs3 *const model = self->model;
     const size_t count = self->surface_count;
     size_t deepest = 0, lines = 1, written = 0;
     size_t *const numbers = calloc(count + 1, sizeof *numbers);
-    made->groups = calloc(count + 1, sizeof *made->groups);
-    FILE *const stream = open_memstream(&made->text, &made->length);
-    if (numbers == NULL || made->groups == NULL || stream == NULL) {
+    model->groups = calloc(count + 1, sizeof *model->groups);
+    FILE *const stream = open_memstream(&model->text, &model->length);
+    if (numbers == NULL || model->groups == NULL || stream == NULL) {
         free(numbers);
         if (stream != NULL)
             fclose(stream);
@@ -199,23 +200,24 @@ static aur_result write_scene(reading *self) {
     for (size_t i = 0; i < count; ++i) {
         const size_t depth = self->surfaces[i].depth;
         deepest = depth > deepest ? depth : deepest;
-        numbers[i] = self->surfaces[i].leader > 0 ? numbers[self->surfaces[i].leader - 1] : made->group_count;
+        numbers[i] =
+            self->surfaces[i].leader > 0 ? numbers[self->surfaces[i].leader - 1] : model->group_count;
         if (self->surfaces[i].leader > 0)
             continue;
-        char *const name = made->names[i]; /* names of groups first, by index */
-        made->names[i] = made->names[made->group_count];
-        made->names[made->group_count] = name;
-        made->emittances[made->group_count++] = made->emittances[i];
+        char *const name = model->names[i]; /* names of groups first, by index */
+        model->names[i] = model->names[model->group_count];
+        model->names[model->group_count] = name;
+        model->emittances[model->group_count++] = model->emittances[i];
     }
     fputs("void plastic s 0 0 5 .5 .5 .5 0 0 ", stream);
     /* Surfaces with a base come first, so that they are cut out of it. */
     for (size_t depth = deepest + 1; depth-- > 0;)
         for (size_t i = 0; i < count; ++i)
             if (self->surfaces[i].depth == depth) {
-                made->groups[written++] = (uint32_t)numbers[i];
+                model->groups[written++] = (uint32_t)numbers[i];
                 write_surface(self, i, &lines, stream);
             }
-    made->shape_count = written;
+    model->shape_count = written;
     free(numbers);
     return fclose(stream) == 0 ? AUR_OK : aur_fail_memory(self->error);
 }
@@ -230,9 +232,9 @@ void aur_vs3_release(aur_vs3 *self) {
     *self = (aur_vs3){0};
 }
 
-aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs3 *made, aur_error *error) {
-    *made = (aur_vs3){0};
-    reading self = {.path = path, .at = data, .end = data + size, .made = made, .error = error};
+aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs3 *model, aur_error *error) {
+    *model = (aur_vs3){0};
+    reading self = {.path = path, .at = data, .end = data + size, .model = model, .error = error};
     aur_result result = AUR_OK;
     while (result == AUR_OK && next_line(&self) && (self.line.words[0][0] & ~32) != 'E')
         result = read_line(&self);
@@ -243,18 +245,18 @@ aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs
     free(self.vertices);
     free(self.surfaces);
     if (result != AUR_OK)
-        aur_vs3_release(made);
+        aur_vs3_release(model);
     return result;
 }
 
-aur_result aur_vs3_read(const char *path, aur_vs3 *made, aur_error *error) {
-    *made = (aur_vs3){0};
+aur_result aur_vs3_read(const char *path, aur_vs3 *model, aur_error *error) {
+    *model = (aur_vs3){0};
     char *text;
     size_t size;
     aur_result result = aur_file_read(path, LARGEST_FILE, &text, &size, error);
     if (result != AUR_OK)
         return result;
-    result = aur_vs3_parse(path, size, text, made, error);
+    result = aur_vs3_parse(path, size, text, model, error);
     free(text);
     return result;
 }

@@ -34,11 +34,11 @@ static void *open_module(const char *file, int mode) {
 
 bool aur_module_find_program(const char *file, size_t capacity, char *path) {
     /* In the build folder and in a wheel; installed; installed next to a static program. */
-    static const char *const places[] = {"", "aureole/", "../lib/aureole/"};
+    static const char *const folders[] = {"", "aureole/", "../lib/aureole/"};
     char folder[PATH_MAX];
     find_folder(folder);
-    for (size_t i = 0; folder[0] != '\0' && i < sizeof places / sizeof places[0]; ++i) {
-        const int length = snprintf(path, capacity, "%s%s%s", folder, places[i], file);
+    for (size_t i = 0; folder[0] != '\0' && i < sizeof folders / sizeof folders[0]; ++i) {
+        const int length = snprintf(path, capacity, "%s%s%s", folder, folders[i], file);
         if (length > 0 && (size_t)length < capacity && access(path, X_OK) == 0)
             return true;
     }

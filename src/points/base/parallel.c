@@ -73,9 +73,9 @@ size_t aur_parallel_threads(size_t threads) {
     if (threads == 0) {
         /* Batch systems and test harnesses set this variable to the number of processors for this process. */
         const char *const text = getenv("OMP_NUM_THREADS");
-        uint64_t wished;
-        threads = text != NULL && aur_read_integer(text, MOST_THREADS, &wished) != NULL && wished > 0
-                      ? (size_t)wished
+        uint64_t requested;
+        threads = text != NULL && aur_read_integer(text, MOST_THREADS, &requested) != NULL && requested > 0
+                      ? (size_t)requested
                       : processors;
     }
     return threads < most ? threads : most;

@@ -11,20 +11,20 @@
 aur_result aur_points_create(aur_domain domain, uint64_t count, size_t dimension, bool weighted,
                              aur_points **points, aur_error *error) {
     size_t size = 0;
-    aur_points *const made = calloc(1, sizeof *made);
-    if (made != NULL && count <= SIZE_MAX / sizeof(double) &&
+    aur_points *const created = calloc(1, sizeof *created);
+    if (created != NULL && count <= SIZE_MAX / sizeof(double) &&
         aur_size_product((size_t)count * sizeof(double), dimension, &size)) {
-        made->coordinates = malloc(size);
-        made->weights = weighted ? malloc((size_t)count * sizeof(double)) : NULL;
+        created->coordinates = malloc(size);
+        created->weights = weighted ? malloc((size_t)count * sizeof(double)) : NULL;
     }
-    if (made == NULL || made->coordinates == NULL || (weighted && made->weights == NULL)) {
-        aur_points_destroy(made);
+    if (created == NULL || created->coordinates == NULL || (weighted && created->weights == NULL)) {
+        aur_points_destroy(created);
         return aur_fail(error, AUR_ERROR_MEMORY, "%llu points do not fit into memory",
                         (unsigned long long)count);
     }
-    made->view = aur_points_view_of(domain, (size_t)count, dimension, made->coordinates);
-    made->view.weights = made->weights;
-    *points = made;
+    created->view = aur_points_view_of(domain, (size_t)count, dimension, created->coordinates);
+    created->view.weights = created->weights;
+    *points = created;
     return AUR_OK;
 }
 

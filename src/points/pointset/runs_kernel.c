@@ -143,20 +143,20 @@ static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
     }
     const uint64_t jump = AUR_LANES * ascent->step % ascent->modulus;
     const signed_words count = (signed_words)(zero + ascent->count);
-    size_t made = 0;
-    for (; made + AUR_RUN_SLACK <= capacity;) {
+    size_t written = 0;
+    for (; written + AUR_RUN_SLACK <= capacity;) {
         const aur_words a = aur_lanes_multiply_low(index, zero + (AUR_GOLDEN_HIGH >> 32));
         const aur_words b = aur_lanes_multiply_low(index, zero + (uint32_t)AUR_GOLDEN_HIGH);
         const aur_words c = aur_lanes_multiply_low(index, zero + (AUR_GOLDEN_LOW >> 32));
         const aur_words d = aur_lanes_multiply_low(index, zero + (uint32_t)AUR_GOLDEN_LOW);
         const aur_words phase = (a << 32) + b + ((c + (d >> 32)) >> 32);
-        made += aur_lanes_compress(out + made, (aur_words)((signed_words)index < count),
-                                   aur_lanes_unit(ascent->start + phase));
+        written += aur_lanes_compress(out + written, (aur_words)((signed_words)index < count),
+                                      aur_lanes_unit(ascent->start + phase));
         const signed_words moved = (signed_words)(index + jump - ascent->modulus);
         index = (aur_words)moved + ((aur_words)(moved < 0) & ascent->modulus);
     }
     ascent->index = index[0];
-    return made;
+    return written;
 }
 
 static void pairs(size_t count, const double *x, const double *y, bool stream, double *out) {
@@ -208,15 +208,15 @@ static void quotients(double base, const double *numerators, double divisor, siz
 
 static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
     uint64_t index = ascent->index;
-    size_t made = 0;
-    while (made + AUR_RUN_SLACK <= capacity) {
-        out[made] = aur_word_to_double(ascent->start + aur_phase(aur_golden_fraction, index));
-        made += index < ascent->count;
+    size_t written = 0;
+    while (written + AUR_RUN_SLACK <= capacity) {
+        out[written] = aur_word_to_double(ascent->start + aur_phase(aur_golden_fraction, index));
+        written += index < ascent->count;
         index += ascent->step;
         index -= index >= ascent->modulus ? ascent->modulus : 0;
     }
     ascent->index = index;
-    return made;
+    return written;
 }
 
 static void pairs(size_t count, const double *x, const double *y, bool stream, double *out) {

@@ -300,17 +300,17 @@ static void report_to_root(aur_shared_loop *loop, bool stops) {
     }
     const size_t given_back = loop->given_back;
     loop->given_back = 0;
-    const bool wants = !stops && !loop->requested && loop->next == loop->end &&
-                       (loop->idle > 0 || loop->running < loop->options.threads);
+    const bool needs_items = !stops && !loop->requested && loop->next == loop->end &&
+                             (loop->idle > 0 || loop->running < loop->options.threads);
     pthread_mutex_unlock(&loop->lock);
     if (results.failed)
         aur_ranks_fail(loop->ranks, "%s: rank %zu is out of memory", loop->options.what, aur_ranks_rank());
     else if (results.size > 0 || given_back > 0)
         aur_ranks_send(loop->ranks, 0, AUR_MESSAGE_RESULTS, given_back, 0, results.size, results.data);
     aur_bytes_release(&results);
-    if (wants && !aur_ranks_have_failed(loop->ranks))
+    if (needs_items && !aur_ranks_have_failed(loop->ranks))
         aur_ranks_send(loop->ranks, 0, AUR_MESSAGE_WANT, 0, 0, 0, NULL);
-    loop->requested = loop->requested || wants;
+    loop->requested = loop->requested || needs_items;
 }
 
 /* Returns whether the loop goes on. */

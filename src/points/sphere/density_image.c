@@ -117,24 +117,24 @@ aur_result aur_density_image_create(size_t width, size_t height, const float *de
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "a density image must have 1 to %d pixels a side, not %zu x %zu", SIDE_LIMIT, width,
                         height);
-    aur_density_image *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_density_image *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->width = width;
-    made->height = height;
-    made->cumulative = malloc((height * (width + 1) + height + 1) * sizeof *made->cumulative);
-    made->guide = malloc((height * width + height) * sizeof *made->guide);
-    made->density = malloc(height * width * sizeof *made->density);
+    created->width = width;
+    created->height = height;
+    created->cumulative = malloc((height * (width + 1) + height + 1) * sizeof *created->cumulative);
+    created->guide = malloc((height * width + height) * sizeof *created->guide);
+    created->density = malloc(height * width * sizeof *created->density);
     aur_result result = AUR_OK;
-    if (made->cumulative == NULL || made->guide == NULL || made->density == NULL)
+    if (created->cumulative == NULL || created->guide == NULL || created->density == NULL)
         result = aur_fail_memory(error);
     if (result == AUR_OK)
-        result = fill_tables(made, density, error);
+        result = fill_tables(created, density, error);
     if (result != AUR_OK) {
-        aur_density_image_destroy(made);
+        aur_density_image_destroy(created);
         return result;
     }
-    *image = made;
+    *image = created;
     return AUR_OK;
 }
 

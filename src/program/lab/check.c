@@ -13,7 +13,7 @@ enum { PATH = 2 * AUR_ERROR_FILE_CAPACITY };
 
 typedef struct comparing {
     const lab_experiment *experiment;
-    const char *kept, *folder;
+    const char *stored, *folder;
     bool quick;
     lab_comparison *found;
     const char *file;
@@ -41,7 +41,7 @@ static double last_digit(const char *text, const char *end) {
 }
 
 /* Whether two texts are equal except for numbers that may depend on the processor, within their rounding. */
-static bool alike(const char *a, const char *b) {
+static bool similar(const char *a, const char *b) {
     while (*a != '\0' && *b != '\0') {
         char *a_end, *b_end;
         const double x = strtod(a, &a_end), y = strtod(b, &b_end);
@@ -96,7 +96,7 @@ static void compare_cell(comparing *c, size_t row, size_t column) {
     snprintf(what, sizeof what, "row %zu, %s", row + 1, report_column_name(c->before, column));
     const double x = report_value(c->before, row, column), y = report_value(c->now, row, column);
     if (!isfinite(x) || !isfinite(y)) {
-        const bool same = c->found->traces_rays && alike(before, now);
+        const bool same = c->found->traces_rays && similar(before, now);
         c->found->same = c->found->same && same;
         if (!same)
             differ(c, INFINITY, what, before, now);
@@ -122,7 +122,7 @@ static void compare_notes(comparing *c, char *before, char *now) {
     char *a = before, *b = now;
     while (a != NULL || b != NULL) {
         const char *const x = next_line(&a), *const y = next_line(&b);
-        if (strcmp(x, y) == 0 || (c->found->traces_rays && alike(x, y)))
+        if (strcmp(x, y) == 0 || (c->found->traces_rays && similar(x, y)))
             continue;
         c->found->same = false;
         differ(c, INFINITY, "note", x, y);
@@ -174,12 +174,12 @@ static bool is_table(const comparing *c, const char *file) {
 }
 
 /* The reference table of that name and form; false if there is none. */
-static bool find_kept(const comparing *c, const char *file, char path[PATH]) {
+static bool find_stored(const comparing *c, const char *file, char path[PATH]) {
     const char *const name = c->experiment->name;
-    snprintf(path, PATH, "%s/%s/quick/%s", c->kept, name, file);
+    snprintf(path, PATH, "%s/%s/quick/%s", c->stored, name, file);
     if (c->quick && access(path, R_OK) == 0)
         return true;
-    snprintf(path, PATH, "%s/%s/%s", c->kept, name, file);
+    snprintf(path, PATH, "%s/%s/%s", c->stored, name, file);
     return access(path, R_OK) == 0;
 }
 
@@ -187,7 +187,7 @@ static aur_result compare_file(comparing *c, const char *file, aur_error *error)
     char before[PATH], now[PATH];
     snprintf(now, sizeof now, "%s/%s/%s", c->folder, c->experiment->name, file);
     c->file = file;
-    if (find_kept(c, file, before))
+    if (find_stored(c, file, before))
         return compare_tables(c, before, now, error);
     c->found->same = false;
     differ(c, INFINITY, "the table", "none", "one");
@@ -197,7 +197,7 @@ static aur_result compare_file(comparing *c, const char *file, aur_error *error)
 /* Reference tables that the run has not produced. */
 static void find_lost(comparing *c) {
     char path[PATH];
-    snprintf(path, sizeof path, "%s/%s%s", c->kept, c->experiment->name, c->quick ? "/quick" : "");
+    snprintf(path, sizeof path, "%s/%s%s", c->stored, c->experiment->name, c->quick ? "/quick" : "");
     DIR *const folder = opendir(path);
     for (const struct dirent *entry; folder != NULL && (entry = readdir(folder)) != NULL;) {
         snprintf(path, sizeof path, "%s/%s/%.200s", c->folder, c->experiment->name, entry->d_name);
@@ -214,7 +214,7 @@ static void find_lost(comparing *c) {
 static aur_result read_stamp(comparing *c, aur_error *error) {
     char path[PATH];
     report_table *stamp = NULL;
-    snprintf(path, sizeof path, "%s/%s/%s-stamp.csv", c->kept, c->experiment->name, c->experiment->name);
+    snprintf(path, sizeof path, "%s/%s/%s-stamp.csv", c->stored, c->experiment->name, c->experiment->name);
     const aur_result result = report_load(path, &stamp, NULL, error);
     const size_t rays = result == AUR_OK ? report_find(stamp, "rays") : SIZE_MAX;
     if (rays != SIZE_MAX && report_rows(stamp) == 1)
@@ -223,11 +223,11 @@ static aur_result read_stamp(comparing *c, aur_error *error) {
     return result;
 }
 
-aur_result lab_compare(const lab_experiment *experiment, const char *kept, const char *folder, bool quick,
+aur_result lab_compare(const lab_experiment *experiment, const char *stored, const char *folder, bool quick,
                        lab_comparison *comparison, aur_error *error) {
     *comparison = (lab_comparison){.same = true};
     comparing c = {
-        .experiment = experiment, .kept = kept, .folder = folder, .quick = quick, .found = comparison};
+        .experiment = experiment, .stored = stored, .folder = folder, .quick = quick, .found = comparison};
     char path[PATH];
     struct dirent **files = NULL;
     aur_result result = read_stamp(&c, error);

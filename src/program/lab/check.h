@@ -12,13 +12,13 @@ typedef struct lab_comparison {
                        * "": none */
 } lab_comparison;
 
-/* Compares the tables of a run, in `folder`/NAME, with the stored ones of the same form, in `kept`/NAME.
+/* Compares the tables of a run, in `folder`/NAME, with the stored ones of the same form, in `stored`/NAME.
  *
- * Tables of the quick form are in `kept`/NAME/quick, except those equal to the full form's. Processors round
- * rays differently, because Embree has a kernel for each instruction set. A single-precision image with a
- * relative error r determines this error to 2^-24 / r, and the smallest r here are near 1e-5. So if rays are
- * traced, numbers may differ by a hundredth of their value or of their interval's width, by 1e-7 of the
+ * Tables of the quick form are in `stored`/NAME/quick, except those equal to the full form's. Processors
+ * round rays differently, because Embree has a kernel for each instruction set. A single-precision image with
+ * a relative error r determines this error to 2^-24 / r, and the smallest r here are near 1e-5. So if rays
+ * are traced, numbers may differ by a hundredth of their value or of their interval's width, by 1e-7 of the
  * largest in their column, or by 1e-14, the rounding of doubles near 1. The kernels of AUREOLE_ISA=portable,
  * avx2 and avx512 differ by at most .0035. Errors: OPEN if nothing is stored, FORMAT, MEMORY. */
-aur_result lab_compare(const lab_experiment *experiment, const char *kept, const char *folder, bool quick,
+aur_result lab_compare(const lab_experiment *experiment, const char *stored, const char *folder, bool quick,
                        lab_comparison *comparison, aur_error *error);

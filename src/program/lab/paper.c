@@ -29,9 +29,9 @@ static aur_result save(const paper *p, const report_table *table, const lab_expe
         report_write_latex(table, (int)p->style->digits, to);
     else if (to != NULL)
         report_write_data(table, to);
-    const bool made = to != NULL && fclose(to) == 0;
+    const bool good = to != NULL && fclose(to) == 0;
     const aur_result result =
-        made ? aur_file_write(path, size, text, error) : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        good ? aur_file_write(path, size, text, error) : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     free(text);
     if (result == AUR_OK)
         fprintf(p->written, "%s\n", path);

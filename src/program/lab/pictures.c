@@ -14,32 +14,32 @@ double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image 
 }
 
 /* Adds the row of an image; one written before an interruption has a row already. */
-static void list_picture(lab_run *run, const lab_image_position *place, const char *path) {
+static void list_picture(lab_run *run, const lab_image_position *position, const char *path) {
     const char *const file = strrchr(path, '/') + 1;
     for (size_t i = 0; i < report_rows(run->pictures); ++i)
         if (strcmp(report_cell(run->pictures, i, 2), file) == 0)
             return;
-    report_text(run->pictures, place->view);
-    report_text(run->pictures, place->name);
+    report_text(run->pictures, position->view);
+    report_text(run->pictures, position->name);
     report_text(run->pictures, file);
-    report_text(run->pictures, place->reference ? "reference" : "");
-    report_number(run->pictures, place->exposure, 4);
+    report_text(run->pictures, position->reference ? "reference" : "");
+    report_number(run->pictures, position->exposure, 4);
 }
 
-aur_result lab_picture(lab_run *run, const lab_image_position *place, const aur_image *image,
+aur_result lab_picture(lab_run *run, const lab_image_position *position, const aur_image *image,
                        aur_error *error) {
     static const char *const extensions[] = {"exr", "png"};
     char path[AUR_ERROR_FILE_CAPACITY], name[256];
-    snprintf(name, sizeof name, "%s%s%s", place->view != NULL ? place->view : "",
-             place->view != NULL ? "-" : "", place->name);
+    snprintf(name, sizeof name, "%s%s%s", position->view != NULL ? position->view : "",
+             position->view != NULL ? "-" : "", position->name);
     const aur_image_write_options options = {
-        .size = sizeof options, .exposure = (float)place->exposure, .half = true};
+        .size = sizeof options, .exposure = (float)position->exposure, .half = true};
     for (size_t i = 2; i-- > 0;) {
         lab_run_path(run, name, extensions[i], path, sizeof path);
         const aur_result result = aur_image_write(path, image, &options, error);
         if (result != AUR_OK)
             return result;
     }
-    list_picture(run, place, path);
+    list_picture(run, position, path);
     return lab_run_save(run, run->pictures, "pictures", NULL, false, error);
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-aur_result lab_points_make(const lab_points *points, aur_points **made, aur_error *error) {
+aur_result lab_points_make(const lab_points *points, aur_points **generated, aur_error *error) {
     aur_directions_options set = {.size = sizeof set};
     aur_directions_options_init(points->size, points->domain, &set, NULL);
     set.map = points->map;
@@ -10,20 +10,20 @@ aur_result lab_points_make(const lab_points *points, aur_points **made, aur_erro
     aur_points_request_init(&set, &request, NULL);
     request.first = points->first;
     request.count = points->count;
-    return aur_points_generate(points->set, &request, made, error);
+    return aur_points_generate(points->set, &request, generated, error);
 }
 
 aur_result lab_figure(const lab_points *points, const char *metric, size_t threads, double *value,
                       aur_error *error) {
-    aur_points *made;
-    const aur_result result = lab_points_make(points, &made, error);
+    aur_points *generated;
+    const aur_result result = lab_points_make(points, &generated, error);
     if (result != AUR_OK)
         return result;
     aur_measure_options how = {.size = sizeof how};
     aur_measure_options_init(&how, NULL);
     how.threads = threads;
-    const aur_result measured = aur_measure(metric, aur_points_get_view(made), &how, value, error);
-    aur_points_destroy(made);
+    const aur_result measured = aur_measure(metric, aur_points_get_view(generated), &how, value, error);
+    aur_points_destroy(generated);
     return measured;
 }
 

@@ -13,7 +13,7 @@ typedef struct lab_points {
 } lab_points;
 
 /* Creates *made; free it with aur_points_destroy. */
-aur_result lab_points_make(const lab_points *points, aur_points **made, aur_error *error);
+aur_result lab_points_make(const lab_points *points, aur_points **generated, aur_error *error);
 /* An image of the points. */
 aur_result lab_figure(const lab_points *points, const char *metric, size_t threads, double *value,
                       aur_error *error);

@@ -83,9 +83,9 @@ static aur_result read_picture(const publication *p, const char *path, aur_image
         aur_image_width(whole) * aur_image_height(whole) <= SMALL_PIXELS)
         return result;
     *reduced = true;
-    const aur_result made = aur_image_downsample(whole, 2, image, error);
+    const aur_result halved = aur_image_downsample(whole, 2, image, error);
     aur_image_destroy(whole);
-    return made;
+    return halved;
 }
 
 /* The images of one view, from row `first` of their table on. */

@@ -50,10 +50,10 @@ static aur_result check_parameters(const lab_run *run, aur_error *error) {
     for (size_t i = 0; i < run->options.parameter_count; ++i) {
         const char *const name = run->options.parameters[i].name;
         const lab_parameter *p = run->experiment->parameters;
-        char known[512] = "";
+        char names[512] = "";
         for (; p != NULL && p->name != NULL && strcmp(p->name, name) != 0; ++p)
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
-                     known[0] != '\0' ? ", " : "", p->name);
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                     names[0] != '\0' ? ", " : "", p->name);
         if ((p == NULL || p->name == NULL) && strcmp(name, "scene") == 0)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
                             "experiment '%s' takes no scene: %s (aureole-scene takes any)",
@@ -62,7 +62,7 @@ static aur_result check_parameters(const lab_run *run, aur_error *error) {
                                                                     : "it renders none");
         if (p == NULL || p->name == NULL)
             return aur_fail(error, AUR_ERROR_NAME, "experiment '%s': unknown parameter '%s': expected %s",
-                            run->experiment->name, name, known[0] != '\0' ? known : "no parameters");
+                            run->experiment->name, name, names[0] != '\0' ? names : "no parameters");
     }
     return AUR_OK;
 }

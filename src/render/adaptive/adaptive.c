@@ -348,7 +348,7 @@ aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half, 
                : aur_fail(error, AUR_ERROR_ARGUMENT, "there is no half %zu: 0 and 1 are the halves", half);
 }
 
-aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive, const aur_image *const made[2],
+aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive, const aur_image *const processed[2],
                                        aur_error_figures *figures, aur_error *error) {
     aur_image *halves[2] = {NULL, NULL};
     aur_result result = aur_adaptive_develop_half(adaptive, 0, &halves[0], error);
@@ -356,7 +356,7 @@ aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive, const aur_i
         result = aur_adaptive_develop_half(adaptive, 1, &halves[1], error);
     aur_error_interval interval = {.estimate = 0.0};
     if (result == AUR_OK)
-        result = aur_error_of_halves((const aur_image *const *)halves, made, adaptive->target.measure,
+        result = aur_error_of_halves((const aur_image *const *)halves, processed, adaptive->target.measure,
                                      adaptive->target.confidence, &interval, error);
     *figures = (aur_error_figures){interval.estimate, interval.low, interval.high};
     aur_image_destroy(halves[0]);

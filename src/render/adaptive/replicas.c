@@ -13,16 +13,16 @@
 aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options,
                                const char *integrator, size_t count, aur_replicas *replicas,
                                aur_error *error) {
-    aur_render_options own = *options;
-    own.integrator = integrator;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    aur_render_options replica_options = *options;
+    replica_options.integrator = integrator;
+    replica_options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     *replicas = (aur_replicas){0};
     for (size_t r = 0; r < count; ++r) {
-        own.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
-        const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
+        replica_options.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
+        const aur_result result = aur_render_create(renderer, &replica_options, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;
-        own.warnings = (aur_warnings){0}; /* the first replica has given them */
+        replica_options.warnings = (aur_warnings){0}; /* the first replica has given them */
         replicas->count = r + 1;
     }
     replicas->pixel_count = aur_film_pixel_count(aur_render_film(replicas->renders[0]));
@@ -146,9 +146,9 @@ static void add_variances(const aur_replicas *replicas, size_t pixel, const doub
     for (size_t r = 0; r < replicas->count; ++r)
         squares += deviations[r] * deviations[r];
     for (size_t r = 0; r < replicas->count; ++r) {
-        const double own = deviations[r] * deviations[r] * (others + 1.0) / others;
+        const double share = deviations[r] * deviations[r] * (others + 1.0) / others;
         variances[r * replicas->pixel_count + pixel] +=
-            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares[replicas->count] - shares[r]));
+            fmax(squares - share, 0.0) * others / ((others - 1.0) * (shares[replicas->count] - shares[r]));
     }
 }
 
@@ -191,7 +191,7 @@ static double product_of(const colour_covariance *a, const colour_covariance *b)
 
 /* tr C^2 of a block's pixels, estimated from their neighbours. C_i and C_j are estimated independently, so
  * the expectation of the product is tr C_i C_j, which on average is at most that of the squares. */
-static double alike_in(size_t count, pixel_range block, const colour_covariance *covariances) {
+static double neighbours_in(size_t count, pixel_range block, const colour_covariance *covariances) {
     const size_t width = block.x1 - block.x0, height = block.y1 - block.y0;
     const double degrees = (double)(count - 1);
     double sum = 0.0;
@@ -230,15 +230,15 @@ static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighin
                 *mean += means[channel];
             }
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
-            const aur_gram own = gram_of(replicas->count, d);
+            const aur_gram of_pixel = gram_of(replicas->count, d);
             if (pixels != NULL)
-                measure_pixel(replicas, pixel, d, &own, pixels);
+                measure_pixel(replicas, pixel, d, &of_pixel, pixels);
             for (size_t r = 0; r < replicas->count; ++r)
                 for (size_t s = 0; s < replicas->count; ++s)
-                    gram.products[r][s] += own.products[r][s];
+                    gram.products[r][s] += of_pixel.products[r][s];
             covariances[seen++] = covariance_of(replicas->count, d);
         }
-    gram.alike = alike_in(replicas->count, block, covariances);
+    gram.neighbours = neighbours_in(replicas->count, block, covariances);
     return gram;
 }
 
@@ -256,9 +256,9 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
-/* Adds `part` of the mean of `values` over the pixels at most `reach` away to `own`. */
+/* Adds `part` of the mean of `values` over the pixels at most `reach` away to `sums`. */
 static void add_means_about(size_t width, size_t height, const double *values, size_t reach, double part,
-                            double *rows, double *own) {
+                            double *rows, double *sums) {
     for (size_t i = 0; i < width * height; ++i) {
         const size_t x = i % width, first = x > reach ? x - reach : 0;
         const size_t end = x + reach < width ? x + reach + 1 : width;
@@ -272,7 +272,7 @@ static void add_means_about(size_t width, size_t height, const double *values, s
         const double share = 1.0 / (double)(end - first);
         for (size_t j = first; j < end; ++j)
             for (size_t x = 0; x < width; ++x)
-                own[y * width + x] += share * rows[j * width + x];
+                sums[y * width + x] += share * rows[j * width + x];
     }
 }
 
@@ -283,11 +283,11 @@ void aur_replicas_smooth(const aur_replicas *replicas, double *variances, double
     const double far_part = 1.0 / 16;
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t pixels = replicas->pixel_count, width = layout->x1 - layout->x0;
-    for (double *own = variances; own < variances + replicas->count * pixels; own += pixels) {
-        memcpy(scratch, own, pixels * sizeof *scratch);
-        memset(own, 0, pixels * sizeof *own);
-        add_means_about(width, pixels / width, scratch, NEAR, 1.0 - far_part, scratch + pixels, own);
-        add_means_about(width, pixels / width, scratch, FAR, far_part, scratch + pixels, own);
+    for (double *smoothed = variances; smoothed < variances + replicas->count * pixels; smoothed += pixels) {
+        memcpy(scratch, smoothed, pixels * sizeof *scratch);
+        memset(smoothed, 0, pixels * sizeof *smoothed);
+        add_means_about(width, pixels / width, scratch, NEAR, 1.0 - far_part, scratch + pixels, smoothed);
+        add_means_about(width, pixels / width, scratch, FAR, far_part, scratch + pixels, smoothed);
     }
 }
 
@@ -299,12 +299,12 @@ void aur_replicas_average(const aur_replicas *replicas, size_t side, double *var
             const pixel_range cell = cell_of(layout, side, column, row);
             const size_t across = cell.x1 - cell.x0, count = across * (cell.y1 - cell.y0);
             for (size_t r = 0; r < replicas->count; ++r) {
-                double *const own = variances + r * pixels + cell.y0 * width + cell.x0;
+                double *const averaged = variances + r * pixels + cell.y0 * width + cell.x0;
                 double sum = 0.0;
                 for (size_t k = 0; k < count; ++k)
-                    sum += own[k / across * width + k % across];
+                    sum += averaged[k / across * width + k % across];
                 for (size_t k = 0; k < count; ++k)
-                    own[k / across * width + k % across] = sum / (double)count;
+                    averaged[k / across * width + k % across] = sum / (double)count;
             }
         }
 }
@@ -338,23 +338,24 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size
     if (replicas->pixel_count == 0) /* while they are being created */
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t own = errors ? 6 : 3, channels = own + (aur_replicas_clamp(replicas) ? 3 : 0);
+    const size_t main_channels = errors ? 6 : 3,
+                 channels = main_channels + (aur_replicas_clamp(replicas) ? 3 : 0);
     const aur_result result =
         aur_image_create(layout->x1 - layout->x0, layout->y1 - layout->y0, channels, image, error);
     if (result != AUR_OK)
         return result;
     for (size_t c = 0; c < channels; ++c)
-        aur_image_name_channel(*image, c, c < own ? names[c] : taken[c - own], NULL);
+        aur_image_name_channel(*image, c, c < main_channels ? names[c] : taken[c - main_channels], NULL);
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
     for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel) {
         float values[6];
         float *const to = aur_image_data(*image) + pixel * channels;
         develop_pixel(replicas, first, step, pixel, 0, values);
-        memcpy(to, values, own * sizeof *values);
-        if (channels > own) {
+        memcpy(to, values, main_channels * sizeof *values);
+        if (channels > main_channels) {
             develop_pixel(replicas, first, step, pixel, 3, values);
-            memcpy(to + own, values, (channels - own) * sizeof *values);
+            memcpy(to + main_channels, values, (channels - main_channels) * sizeof *values);
         }
     }
     for (size_t r = 0; r < replicas->count; ++r)

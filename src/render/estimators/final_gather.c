@@ -114,7 +114,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     integrator->extra_names = near ? sharing : directions;
     aur_gather_plan *plan;
     result = aur_gather_plan_create(p, method, context, &plan, error);
-    integrator->made = plan;
+    integrator->prepared = plan;
     return result;
 }
 
@@ -124,7 +124,7 @@ static aur_result prepare_view(const aur_view *view, const aur_integrator_contex
                                aur_integrator *integrator, aur_error *error) {
     enum { MOST_PATTERNS = 4 };
     const aur_gather_settings *const p = integrator->data;
-    aur_gather_plan *const plan = integrator->made;
+    aur_gather_plan *const plan = integrator->prepared;
     const size_t probes = p->edge_samples / (MOST_PATTERNS * plan->samples_per_pattern);
     if (p->edge_samples == 0 || p->direct == AUR_DIRECT_NONE)
         return AUR_OK;
@@ -135,11 +135,11 @@ static aur_result prepare_view(const aur_view *view, const aur_integrator_contex
 }
 
 static void release(aur_integrator *integrator) {
-    aur_gather_plan_destroy(integrator->made);
+    aur_gather_plan_destroy(integrator->prepared);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
-    return aur_gather_tile(integrator->made, tile);
+    return aur_gather_tile(integrator->prepared, tile);
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {

@@ -337,18 +337,18 @@ static aur_result begin(ptracer *self, const aur_view *view, const aur_filter *f
 /* Adds a splat to all pixels that its filter reaches. */
 static void put(ptracer *self, const aur_filter *filter, const splat *at) {
     enum { WIDEST = 2 * AUR_FILTER_REACH_MAX + 2 };
-    const float places[2] = {at->x, at->y};
+    const float raster[2] = {at->x, at->y};
     const size_t sides[2] = {self->width, self->height};
     const float reach = (float)aur_spread_reach(filter);
     size_t first[2], count[2];
     double weights[2][WIDEST];
     for (size_t d = 0; d < 2; ++d) {
-        const float low = floorf(places[d]) - reach, high = floorf(places[d]) + reach + 1.0f;
+        const float low = floorf(raster[d]) - reach, high = floorf(raster[d]) + reach + 1.0f;
         first[d] = low > 0.0f ? (size_t)low : 0;
         const size_t end = high < (float)sides[d] ? (size_t)high : sides[d];
         count[d] = end - first[d];
         for (size_t i = 0; i < count[d]; ++i)
-            weights[d][i] = aur_filter_value(filter, (double)places[d] - 0.5 - (double)(first[d] + i)) /
+            weights[d][i] = aur_filter_value(filter, (double)raster[d] - 0.5 - (double)(first[d] + i)) /
                             self->norms[d][first[d] + i];
     }
     const double paths = (double)(self->width * self->height);

@@ -35,13 +35,13 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
         return aur_fail_memory(error);
     film->layout = *layout;
     aur_film_compute_area(film);
-    const size_t pixels = aur_film_pixel_count(film), own = layout->cell == 0 ? pixels : 0;
+    const size_t pixels = aur_film_pixel_count(film), stored = layout->cell == 0 ? pixels : 0;
     film->channels = calloc(layout->channel_count, sizeof *film->channels);
     film->given = calloc(pixels, sizeof *film->given);
-    film->sums = calloc(own + 1, layout->channel_count * sizeof *film->sums);
+    film->sums = calloc(stored + 1, layout->channel_count * sizeof *film->sums);
     film->counts = calloc(pixels, sizeof *film->counts);
     film->steps = calloc(pixels, sizeof *film->steps);
-    film->squares = calloc(own + 1, 3 * sizeof *film->squares);
+    film->squares = calloc(stored + 1, 3 * sizeof *film->squares);
     const bool spread =
         layout->cell == 0 || aur_spread_create(&layout->filter, layout->cell, layout->channel_count,
                                                film->tile_count, &film->spread);
@@ -226,8 +226,8 @@ aur_counters aur_film_counted(const aur_film *film) {
 }
 
 /* Whether a side of the part lies on the same side of the film or between two tiles. */
-static bool fits(size_t part, size_t own) {
-    return part == own || part % AUR_TILE_SIZE == 0;
+static bool fits(size_t part, size_t whole) {
+    return part == whole || part % AUR_TILE_SIZE == 0;
 }
 
 static aur_result check_part(const aur_film *film, const aur_film *part, aur_error *error) {
@@ -242,9 +242,9 @@ static aur_result check_part(const aur_film *film, const aur_film *part, aur_err
                film->channels[c].kind == part->channels[c].kind;
     if (!same)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the part has other channels than the film");
-    const bool alike = b->x0 == a->x0 && b->x1 == a->x1 && b->y0 == a->y0 && b->y1 == a->y1;
+    const bool same_crop = b->x0 == a->x0 && b->x1 == a->x1 && b->y0 == a->y0 && b->y1 == a->y1;
     if (a->cell != b->cell ||
-        (a->cell > 0 && (!alike || memcmp(&a->filter, &b->filter, sizeof a->filter) != 0)))
+        (a->cell > 0 && (!same_crop || memcmp(&a->filter, &b->filter, sizeof a->filter) != 0)))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "pixels share samples by the filter, so a part must have the film's filter and crop");
     if (b->x0 < a->x0 || b->x1 > a->x1 || b->y0 < a->y0 || b->y1 > a->y1 || !fits(b->x0, a->x0) ||
@@ -261,16 +261,16 @@ aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error
     if (result != AUR_OK)
         return result;
     const aur_film_layout *const a = &film->layout, *const b = &part->layout;
-    const size_t channels = a->channel_count, own = film->spread == NULL;
+    const size_t channels = a->channel_count, has_sums = film->spread == NULL;
     if (film->spread != NULL)
         aur_spread_merge(film, part);
     for (size_t y = b->y0; y < b->y1; ++y)
         for (size_t x = b->x0; x < b->x1; ++x) {
             const size_t to = (y - a->y0) * (a->x1 - a->x0) + (x - a->x0);
             const size_t from = (y - b->y0) * (b->x1 - b->x0) + (x - b->x0);
-            for (size_t c = 0; c < own * channels; ++c)
+            for (size_t c = 0; c < has_sums * channels; ++c)
                 film->sums[to * channels + c] += part->sums[from * channels + c];
-            for (size_t c = 0; c < own * 3; ++c)
+            for (size_t c = 0; c < has_sums * 3; ++c)
                 film->squares[3 * to + c] += part->squares[3 * from + c];
             film->given[to] += part->given[from];
             film->counts[to] += part->counts[from];

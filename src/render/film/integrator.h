@@ -84,7 +84,7 @@ struct aur_integrator {
     const aur_scene *scene;
     const aur_gather_integrator *gather; /* supplied by the caller; else NULL */
     void *data;
-    void *made;                 /* by create, where it is not in `data` */
+    void *prepared;             /* by create, where it is not in `data` */
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
     bool whole_tiles;           /* all pixels of a tile have the same number of samples */
     bool refines_emitter_edges; /* traces more rays in a pixel whose neighbours see the edge of an emitter */

@@ -212,8 +212,8 @@ void aur_spread_close_tile(aur_film *film, const aur_tile *tile, const aur_film_
 
 /* A cell that reaches a pixel. */
 typedef struct reaching_cell {
-    size_t cell;  /* of the film */
-    size_t place; /* of the pixel in it */
+    size_t cell;    /* of the film */
+    size_t in_cell; /* of the pixel in it */
 } reaching_cell;
 
 enum { CELLS_MAX = (2 * AUR_FILTER_REACH_MAX / 4 + 2) * (2 * AUR_FILTER_REACH_MAX / 4 + 2) };
@@ -242,7 +242,7 @@ static size_t find_cells(const aur_film *film, size_t pixel, reaching_cell *foun
 }
 
 static double sum_of(const aur_spread *spread, const reaching_cell *at, size_t channel) {
-    return spread->sums[at->cell * spread->cell_values + at->place * spread->channels + channel] /
+    return spread->sums[at->cell * spread->cell_values + at->in_cell * spread->channels + channel] /
            (double)spread->given[at->cell];
 }
 
@@ -276,7 +276,8 @@ bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
         for (size_t i = 0; i < count; ++i) {
             const size_t cell = cells[i].cell;
             const double *const entry =
-                &spread->moments[(cell * spread->side * spread->side + cells[i].place) * AUR_SPREAD_MOMENTS];
+                &spread
+                     ->moments[(cell * spread->side * spread->side + cells[i].in_cell) * AUR_SPREAD_MOMENTS];
             const double mean =
                 sum_of(spread, &cells[i], c) - value * sum_of(spread, &cells[i], spread->channels - 1);
             const double given = spread->given[cell];

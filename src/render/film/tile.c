@@ -158,7 +158,7 @@ void aur_tile_add_light(aur_tile *tile, size_t x, size_t y, uint32_t index, cons
     ++slots->light_count;
 }
 
-void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const float offset[2],
+void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t sample_count, const float offset[2],
                      aur_vector radiance) {
     if (tile->spread == NULL) {
         aur_tile_add(tile, x, y, tile->first, offset, radiance);
@@ -170,7 +170,8 @@ void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const floa
     }
     const float values[3] = {radiance.x, radiance.y, radiance.z};
     ++tile->counts[pixel_of(tile, x, y)];
-    aur_spread_add(tile->spread, tile->sums, x, y, offset, (double)tile->count / (double)made, values, true);
+    aur_spread_add(tile->spread, tile->sums, x, y, offset, (double)tile->count / (double)sample_count, values,
+                   true);
 }
 
 void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]) {

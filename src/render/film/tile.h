@@ -147,9 +147,9 @@ void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, uint32_t index, c
  * light's radiance and weights, which are correlated, come from the same rays. */
 void aur_tile_add_light(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2], float part,
                         aur_vector radiance);
-/* Adds one of the `made` samples of a step that gives each pixel `tile->count`, in one call: for integrators
- * without `cuts`. */
-void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const float offset[2],
+/* Adds one of the `sample_count` samples of a step that gives each pixel `tile->count`, in one call: for
+ * integrators without `cuts`. */
+void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t sample_count, const float offset[2],
                      aur_vector radiance);
 /* Adds the mean of `count` samples, where pixels do not share samples. */
 void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);

@@ -8,7 +8,7 @@
 /* One pattern's part of this sample, and the lanes that send it. */
 typedef struct merged_pattern {
     uint32_t lanes;
-    bool alike; /* all lanes have the same local directions */
+    bool uniform; /* all lanes have the same local directions */
     const float *directions[3][AUR_PACKET_SIZE];
     size_t stride[AUR_PACKET_SIZE]; /* from one direction to the next */
     aur_lobe_frames frames;
@@ -112,14 +112,14 @@ static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_point *surf
  * loops over all lanes read valid memory; their results are masked out. */
 static void finish_pattern(merged_pattern *pattern) {
     const size_t first = aur_first_lane(pattern->lanes);
-    pattern->alike = true;
+    pattern->uniform = true;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         if (!aur_has_lane(pattern->lanes, lane)) {
             pattern->stride[lane] = pattern->stride[first];
             for (size_t c = 0; c < 3; ++c)
                 pattern->directions[c][lane] = pattern->directions[c][first];
         }
-        pattern->alike = pattern->alike && pattern->directions[0][lane] == pattern->directions[0][first];
+        pattern->uniform = pattern->uniform && pattern->directions[0][lane] == pattern->directions[0][first];
     }
 }
 
@@ -160,7 +160,7 @@ static void set_directions(const merged *work, size_t k, size_t index, aur_lane_
         const float *const *const from = pattern->directions[c];
         const float one = from[0][index * pattern->stride[0]];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-            to[c][lane] = pattern->alike ? one : from[lane][index * pattern->stride[lane]];
+            to[c][lane] = pattern->uniform ? one : from[lane][index * pattern->stride[lane]];
     }
     for (uint32_t rest = k == 0 ? work->diffuse : 0; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);

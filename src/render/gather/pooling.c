@@ -73,12 +73,12 @@ static size_t set_window(size_t at, float weights[WINDOW]) {
  * of independent errors by more than 1.5. At the tile's first pixel the window begins at -1, where the weight
  * is 0. */
 static size_t set_near_window(size_t at, float weights[WINDOW]) {
-    const float beside = 0.16f;
+    const float neighbour = 0.16f;
     for (size_t i = 0; i < WINDOW; ++i)
         weights[i] = 0.0f;
-    weights[0] = at > 0 ? beside : 0.0f;
+    weights[0] = at > 0 ? neighbour : 0.0f;
     weights[1] = 1.0f;
-    weights[2] = at + 1 < SIDE ? beside : 0.0f;
+    weights[2] = at + 1 < SIDE ? neighbour : 0.0f;
     return at - 1;
 }
 

@@ -142,12 +142,12 @@ static void gather_lobe(const aur_gather_points *surface_points, uint32_t lanes,
     }
     while (ruled != 0) {
         const aur_gather_lobe_rule *const rule = surface_points->at[aur_first_lane(ruled)].rules[lobe];
-        const uint32_t alike = lanes_of_rule(surface_points, ruled, lobe, rule);
+        const uint32_t same_rule = lanes_of_rule(surface_points, ruled, lobe, rule);
         if (rule->state != NULL)
-            aur_gather_by_method(surface_points, rule, lobe, alike, sums);
+            aur_gather_by_method(surface_points, rule, lobe, same_rule, sums);
         else
-            by_rule(surface_points, rule, lobe, alike, sums);
-        ruled &= ~alike;
+            by_rule(surface_points, rule, lobe, same_rule, sums);
+        ruled &= ~same_rule;
     }
     if (ggx != 0)
         aur_gather_by_ggx(surface_points, lobe, ggx, sums);

@@ -21,7 +21,7 @@ static double square_of(aur_error_measure measure, const aur_error_weight *weigh
 /* With halves a and b and their denoised versions A and B: the expectation of (A - b)^2 + (B - a)^2 - (a -
  * b)^2 is the sum of the square errors of A and B, because a and b are independent and their errors average
  * out. */
-static double square_in_block(const aur_image *const halves[2], const aur_image *const made[2],
+static double square_in_block(const aur_image *const halves[2], const aur_image *const processed[2],
                               aur_error_measure measure, const aur_error_weight *weights, size_t x0,
                               size_t y0) {
     const size_t width = aur_image_width(halves[0]), height = aur_image_height(halves[0]);
@@ -32,7 +32,7 @@ static double square_in_block(const aur_image *const halves[2], const aur_image 
             const float *noisy[2], *clean[2];
             for (size_t h = 0; h < 2; ++h) {
                 noisy[h] = aur_image_data(halves[h]) + pixel * aur_image_channel_count(halves[h]);
-                clean[h] = aur_image_data(made[h]) + pixel * aur_image_channel_count(made[h]);
+                clean[h] = aur_image_data(processed[h]) + pixel * aur_image_channel_count(processed[h]);
             }
             sum += 0.5 * square_of(measure, &weights[pixel], noisy[1], clean[0]);
             sum += 0.5 * square_of(measure, &weights[pixel], noisy[0], clean[1]);
@@ -57,18 +57,18 @@ static aur_result weigh(const aur_image *const halves[2], aur_error_measure meas
         aur_error_weigh(measure, count, (const double(*)[3])values, (const double(*)[3])(values + count),
                         *weights);
     }
-    const bool made = values != NULL && *weights != NULL;
+    const bool processed = values != NULL && *weights != NULL;
     free(values);
-    return made ? AUR_OK : aur_fail_memory(error);
+    return processed ? AUR_OK : aur_fail_memory(error);
 }
 
-aur_result aur_error_of_halves(const aur_image *const halves[2], const aur_image *const made[2],
+aur_result aur_error_of_halves(const aur_image *const halves[2], const aur_image *const processed[2],
                                aur_error_measure measure, double confidence, aur_error_interval *interval,
                                aur_error *error) {
     const size_t width = aur_image_width(halves[0]), height = aur_image_height(halves[0]);
     for (size_t h = 0; h < 2; ++h)
-        if (aur_image_width(made[h]) != width || aur_image_height(made[h]) != height ||
-            aur_image_channel_count(made[h]) < 3)
+        if (aur_image_width(processed[h]) != width || aur_image_height(processed[h]) != height ||
+            aur_image_channel_count(processed[h]) < 3)
             return aur_fail(error, AUR_ERROR_ARGUMENT, "expected images with R, G and B of %zu x %zu pixels",
                             width, height);
     aur_error_weight *weights;
@@ -76,7 +76,7 @@ aur_result aur_error_of_halves(const aur_image *const halves[2], const aur_image
     aur_moments blocks = {0};
     for (size_t y = 0; y < height && result == AUR_OK; y += BLOCK)
         for (size_t x = 0; x < width; x += BLOCK)
-            aur_moments_add(&blocks, square_in_block(halves, made, measure, weights, x, y));
+            aur_moments_add(&blocks, square_in_block(halves, processed, measure, weights, x, y));
     free(weights);
     if (result != AUR_OK)
         return result;

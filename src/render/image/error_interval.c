@@ -35,7 +35,7 @@ void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
         sum->trace += block->products[r][r];
     sum->spread += spread;
     sum->square_spreads += spread * spread;
-    sum->alike += block->alike;
+    sum->neighbours += block->neighbours;
 }
 
 void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
@@ -71,7 +71,7 @@ aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count,
     aur_error_interval interval = {.degrees = 1.0};
     if (!(sum->trace > 0.0))
         return interval;
-    const double spread = fmax(sum->spread, sum->alike);
+    const double spread = fmax(sum->spread, sum->neighbours);
     const double square = (sum->trace * sum->trace - 2.0 * n * spread) / (n * n);
     interval.degrees = fmin(fmax(square / spread, 1.0), (double)values);
     const double square_error = sum->trace / (n * (double)count * (double)values);

@@ -11,7 +11,7 @@ enum { AUR_REPLICAS_MAX = 16 };
 typedef struct aur_gram {
     size_t count;
     double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
-    double alike; /* an estimate of tr C^2 from neighbouring values (aur_deviations) */
+    double neighbours; /* an estimate of tr C^2 from neighbouring values (aur_deviations) */
 } aur_gram;
 
 /* Sums over the Gram matrices of all blocks of an image. C is the covariance of one replica's values; blocks
@@ -20,7 +20,7 @@ typedef struct aur_deviations {
     double trace;          /* the sum of tr W; expectation (count - 1) tr C */
     double spread;         /* the sum of estimates of tr C^2 */
     double square_spreads; /* the sum of their squares */
-    double alike;          /* the sum of the blocks' */
+    double neighbours;     /* the sum of the blocks' */
 } aur_deviations;
 
 /* Let Y be the deviations from the expectation. The error of the mean and its estimate from the replicas'

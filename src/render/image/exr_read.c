@@ -73,8 +73,8 @@ typedef struct exr_reader {
     const exr_attr_chlist_t *channels;
     exr_attr_box2i_t window;
     exr_decode_pipeline_t pipeline;
-    bool started;  /* the pipeline has been initialised */
-    size_t *place; /* of each channel of the file in the image */
+    bool started;          /* the pipeline has been initialised */
+    size_t *channel_index; /* of each channel of the file in the image */
     channel_plane *planes;
     bool subsampled; /* a channel is */
     color_form form;
@@ -153,7 +153,7 @@ static exr_result_t decode_chunk(exr_reader *reader, const exr_chunk_info_t *chu
             channel->user_line_stride = (int32_t)(plane->width * sizeof(float));
             continue;
         }
-        channel->decode_to_ptr = (uint8_t *)(corner + reader->place[c]);
+        channel->decode_to_ptr = (uint8_t *)(corner + reader->channel_index[c]);
         channel->user_bytes_per_element = sizeof(float);
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_pixel_stride = (int32_t)(image->channel_count * sizeof(float));
@@ -254,8 +254,8 @@ static aur_result create_image(exr_reader *reader, aur_error *error) {
     if (result != AUR_OK)
         return result;
     channel_order *const order = calloc(count, sizeof *order);
-    reader->place = calloc(count, sizeof *reader->place);
-    if (order == NULL || reader->place == NULL) {
+    reader->channel_index = calloc(count, sizeof *reader->channel_index);
+    if (order == NULL || reader->channel_index == NULL) {
         free(order);
         return aur_fail_memory(error);
     }
@@ -277,7 +277,7 @@ static aur_result create_image(exr_reader *reader, aur_error *error) {
     if (result == AUR_OK)
         qsort(order, count, sizeof *order, compare_channels);
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        reader->place[order[i].in_file] = i;
+        reader->channel_index[order[i].in_file] = i;
         strcpy(reader->image->channel_names[i], order[i].name);
     }
     free(order);
@@ -322,7 +322,7 @@ static aur_result spread_channel(const exr_reader *reader, size_t c, aur_error *
                                                  (size_t)entry->x_sampling, smooth);
     for (size_t y = 0; y < image->height; ++y)
         for (size_t x = 0; x < image->width; ++x)
-            image->data[(y * image->width + x) * image->channel_count + reader->place[c]] =
+            image->data[(y * image->width + x) * image->channel_count + reader->channel_index[c]] =
                 between(rows + x, plane->height, image->width, y, (size_t)entry->y_sampling, smooth);
     free(rows);
     return AUR_OK;
@@ -486,7 +486,7 @@ static aur_result read_exr(const aur_image_source *source, aur_image **image, au
         exr_finish(&reader.context);
     aur_exr_listen(NULL);
     free(reader.planes);
-    free(reader.place);
+    free(reader.channel_index);
     *image = reader.image;
     return result;
 }

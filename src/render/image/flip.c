@@ -166,8 +166,8 @@ typedef struct flip_planes {
 enum { PLANE_COUNT = 11 };
 
 static size_t clamped(size_t at, int offset, size_t count) {
-    const ptrdiff_t place = (ptrdiff_t)at + offset;
-    return place < 0 ? 0 : (size_t)place < count ? (size_t)place : count - 1;
+    const ptrdiff_t index = (ptrdiff_t)at + offset;
+    return index < 0 ? 0 : (size_t)index < count ? (size_t)index : count - 1;
 }
 
 /* out += in convolved with `across` (x) and `along` (y); the border is extended by its pixels. */

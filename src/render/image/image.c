@@ -22,7 +22,7 @@ static bool size_is_allowed(size_t width, size_t height, size_t channel_count) {
 typedef enum storage { FLOATS, CODES } storage;
 
 /* `data` NULL: allocated by the image and zeroed. */
-static aur_result create(size_t width, size_t height, size_t channel_count, float *data, storage own,
+static aur_result create(size_t width, size_t height, size_t channel_count, float *data, storage kind,
                          aur_image **image, aur_error *error) {
     *image = NULL;
     if (!size_is_allowed(width, height, channel_count))
@@ -38,7 +38,7 @@ static aur_result create(size_t width, size_t height, size_t channel_count, floa
     created->data_is_owned = data == NULL;
     const size_t count = width * height * channel_count;
     created->data = data;
-    if (own == CODES)
+    if (kind == CODES)
         created->codes = calloc(count, 1);
     else if (data == NULL)
         created->data = calloc(count, sizeof *created->data);

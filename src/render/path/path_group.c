@@ -114,8 +114,8 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
 
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER ||
-        (g->sensor.known != NULL && aur_has_lane(g->sensor.unscattered, k) &&
-         g->sensor.known[surface->emitter] >= 0.0f))
+        (g->sensor.light_shares != NULL && aur_has_lane(g->sensor.unscattered, k) &&
+         g->sensor.light_shares[surface->emitter] >= 0.0f))
         return;
     aur_walk walk = walk_of(g, k);
     aur_walk_add_emission(g->scene, surface, &walk);

@@ -14,7 +14,7 @@ typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vec
 typedef struct aur_path_sensor {
     /* Per emitter: >= 0 if unscattered light was already counted analytically; < 0, or NULL here: add the
      * emission that is hit. */
-    const float *known;
+    const float *light_shares;
     /* Called for each environment hit, in addition to the sums, in scenes without other lights; or NULL. */
     aur_path_sky *from_sky;
     void *from_sky_user;

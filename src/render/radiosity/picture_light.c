@@ -215,14 +215,14 @@ aur_vector aur_radiosity_gather(const aur_radiosity_image *image,
     aur_packet_clear(&packet);
     aur_vector sum = {0};
     for (size_t first = 0; first < image->direction_count; first += AUR_PACKET_SIZE) {
-        aur_ray made[AUR_PACKET_SIZE];
+        aur_ray rays[AUR_PACKET_SIZE];
         const size_t left = image->direction_count - first,
                      lanes = left < AUR_PACKET_SIZE ? left : AUR_PACKET_SIZE;
         for (size_t k = 0; k < lanes; ++k) {
             const float x = image->x[first + k], y = image->y[first + k];
             const aur_vector local = {cosine * x - sine * y, sine * x + cosine * y, image->z[first + k]};
-            made[k] = leave(scene, surface_point, aur_frame_to_world(&frame, local));
-            aur_packet_set(&packet, k, &made[k]);
+            rays[k] = leave(scene, surface_point, aur_frame_to_world(&frame, local));
+            aur_packet_set(&packet, k, &rays[k]);
         }
         for (size_t k = lanes; k < AUR_PACKET_SIZE; ++k)
             packet.valid[k] = 0;
@@ -231,7 +231,7 @@ aur_vector aur_radiosity_gather(const aur_radiosity_image *image,
             if ((met >> k & 1u) == 0)
                 continue;
             const aur_hit hit = aur_packet_hit(scene->scene, &packet, k);
-            const aur_vector radiance = radiance_at(image, &made[k], &hit, aur_hash2(hash, first + k));
+            const aur_vector radiance = radiance_at(image, &rays[k], &hit, aur_hash2(hash, first + k));
             sum = aur_vector_add_scaled(sum, image->weights[first + k], radiance);
         }
     }

@@ -99,26 +99,26 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
     const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
     const aur_radiosity_scene *const scene = &work->image->solution->scene;
     aur_ray ray;
-    hit_point made = {.triangle = AUR_NO_PATCH};
-    camera_ray(work, x, y, index, made.offset, &ray);
+    hit_point point = {.triangle = AUR_NO_PATCH};
+    camera_ray(work, x, y, index, point.offset, &ray);
     aur_hit hit;
     aur_radiosity_surface_point surface_point;
     aur_vector path;
     if (!aur_scene_intersect(scene->scene, &ray, &hit) ||
         !aur_radiosity_see(scene, hash, ray, hit, &surface_point, &path))
-        return made;
-    made.triangle = surface_point.triangle << 1 | (surface_point.patch == surface_point.triangle);
-    made.throughput = aur_vector_multiply(path, surface_point.albedo);
+        return point;
+    point.triangle = surface_point.triangle << 1 | (surface_point.patch == surface_point.triangle);
+    point.throughput = aur_vector_multiply(path, surface_point.albedo);
     if (includes_component(work, AUR_RADIOSITY_EMISSION))
-        made.rest = aur_vector_multiply(path, surface_point.emission);
+        point.rest = aur_vector_multiply(path, surface_point.emission);
     if (aur_vector_is_zero(surface_point.albedo))
-        return made;
+        return point;
     if (includes_component(work, AUR_RADIOSITY_DIRECT))
-        made.rest = aur_vector_add(
-            made.rest, aur_vector_multiply(path, direct_light(work, &surface_point, pixel, index, points)));
+        point.rest = aur_vector_add(
+            point.rest, aur_vector_multiply(path, direct_light(work, &surface_point, pixel, index, points)));
     if (includes_component(work, AUR_RADIOSITY_INDIRECT))
-        made.irradiance = aur_radiosity_gather(work->image, &surface_point, aur_mix64(hash + 1));
-    return made;
+        point.irradiance = aur_radiosity_gather(work->image, &surface_point, aur_mix64(hash + 1));
+    return point;
 }
 
 static aur_vector radiance_of(const hit_point *point, aur_vector irradiance) {
@@ -140,14 +140,15 @@ static bool is_steady(const pixel_points *p, float threshold) {
 /* Hit points first .. first + count - 1 of a pixel. They come in rounds that share out all lights, so that
  * more hit points see more of each. */
 static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first, uint32_t count,
-                       pixel_points *made) {
+                       pixel_points *found) {
     const bool adaptive = work->image->oversampling == AUR_RADIOSITY_ADAPTIVE;
     const size_t samples = work->image->samples_per_pixel;
     const uint32_t points = samples < ROUND ? (uint32_t)samples : ROUND;
-    made->count = 0;
+    found->count = 0;
     uint32_t round = UINT32_MAX;
     for (uint32_t i = first; i < first + count; ++i) {
-        if (adaptive && i % ROUND == 0 && made->count >= 2 * ROUND && is_steady(made, work->image->threshold))
+        if (adaptive && i % ROUND == 0 && found->count >= 2 * ROUND &&
+            is_steady(found, work->image->threshold))
             return;
         if (work->image->permuted && i / points != round) {
             round = i / points;
@@ -156,7 +157,7 @@ static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first
             aur_shuffle(work->image->solution->walk.light_count, work->order,
                         aur_hash2(pixel_hash(work, x, y), round));
         }
-        made->points[made->count++] = make_point(work, x, y, i, points);
+        found->points[found->count++] = make_point(work, x, y, i, points);
     }
 }
 

@@ -117,10 +117,10 @@ static bool pick(const triangles *t, size_t shape, const box *boxes, size_t *cou
     for (size_t k = 0; near_count > 0 && k < mesh->triangle_count; ++k) {
         double corners[3][3];
         corners_of(mesh, k, corners);
-        const box own = box_of(3, &corners[0][0]);
+        const box bounds = box_of(3, &corners[0][0]);
         bool meets = false;
         for (size_t i = 0; i < near_count && !meets; ++i)
-            meets = boxes_meet(&own, &near[i]);
+            meets = boxes_meet(&bounds, &near[i]);
         picked[*count] = (uint32_t)k;
         *count += meets;
     }
@@ -354,10 +354,10 @@ static bool add_parts(replacement *r, uint32_t source, const pieces *left) {
         for (size_t c = 1; c + 1 < left->items[i].count; ++c) {
             if (!aur_array_reserve(&r->parts, &r->capacity, r->count + 1, sizeof *r->parts))
                 return false;
-            struct part *const made = &r->parts[r->count++];
-            made->source = source;
-            memcpy(made->corners[0], left->items[i].corners[0], sizeof made->corners[0]);
-            memcpy(made->corners[1], left->items[i].corners[c], 2 * sizeof made->corners[0]);
+            struct part *const added = &r->parts[r->count++];
+            added->source = source;
+            memcpy(added->corners[0], left->items[i].corners[0], sizeof added->corners[0]);
+            memcpy(added->corners[1], left->items[i].corners[c], 2 * sizeof added->corners[0]);
         }
     return true;
 }
@@ -448,17 +448,18 @@ static bool replace(aur_mesh *mesh, const replacement *r) {
         free(colors);
         return false;
     }
-    size_t made = 0, cut = 0, part = 0;
+    size_t written = 0, cut = 0, part = 0;
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         const bool whole = cut == r->cut_count || r->cut[cut] != i;
         cut += !whole;
         for (bool first = true; whole ? first : part < r->count && r->parts[part].source == i;
-             first = false, ++made) {
-            sources[made] = mesh->sources != NULL ? mesh->sources[i] : (uint32_t)i;
+             first = false, ++written) {
+            sources[written] = mesh->sources != NULL ? mesh->sources[i] : (uint32_t)i;
             if (colors != NULL)
-                memcpy(&colors[3 * made], &mesh->face_colors[3 * i], 3 * sizeof *colors);
+                memcpy(&colors[3 * written], &mesh->face_colors[3 * i], 3 * sizeof *colors);
             for (uint32_t c = 0; c < 3; ++c)
-                indices[3 * made + c] = whole ? mesh->indices[3 * i + c] : (uint32_t)mesh->vertex_count + c;
+                indices[3 * written + c] =
+                    whole ? mesh->indices[3 * i + c] : (uint32_t)mesh->vertex_count + c;
             if (!whole)
                 add_vertices(mesh, &r->parts[part++]);
         }
@@ -582,11 +583,11 @@ static aur_result cut_group(aur_scene *scene, const aur_shape_group *group, size
                                         scene->keeps_points};
     if (result == AUR_OK)
         result = aur_overlaps_find(&source, threads, &overlaps, error);
-    size_t kept = 0;
+    size_t remaining = 0;
     for (size_t i = 0; i < overlaps.count; ++i)
         if (scene->overlap_rule != AUR_OVERLAPS_OF_FRONTS || !overlaps.items[i].opposite)
-            overlaps.items[kept++] = overlaps.items[i];
-    overlaps.count = kept;
+            overlaps.items[remaining++] = overlaps.items[i];
+    overlaps.count = remaining;
     if (result == AUR_OK)
         result = cut_shapes(scene, &t, &overlaps, error);
     aur_overlaps_release(&overlaps);

@@ -434,11 +434,11 @@ static bool try_pair(const search *s, const item *a, const item *b, aur_overlaps
     const double extents[2] = {extent_of(a->corners), extent_of(b->corners)};
     /* Of two equally large triangles the first one, independent of the tree. */
     const int larger = extents[1] > extents[0] || (extents[1] == extents[0] && b->index < a->index);
-    aur_overlap made = {a->index < b->index ? a->index : b->index, a->index < b->index ? b->index : a->index,
-                        false};
+    aur_overlap pair_overlap = {a->index < b->index ? a->index : b->index,
+                                a->index < b->index ? b->index : a->index, false};
     return !overlap(corners[larger], corners[1 - larger], extents[larger], s->triangles->doubles,
-                    &made.opposite) ||
-           append(found, capacity, made);
+                    &pair_overlap.opposite) ||
+           append(found, capacity, pair_overlap);
 }
 
 /* Pairs of a leaf's triangles with each other, and with those of later leaves. */

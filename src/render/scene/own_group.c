@@ -15,25 +15,25 @@ static void *copy_of(const void *array, size_t bytes, bool *good) {
 }
 
 static aur_shape *copy_shape(const aur_shape *from) {
-    aur_shape *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_shape *const copy = calloc(1, sizeof *copy);
+    if (copy == NULL)
         return NULL;
     bool good = true;
-    *made = *from;
+    *copy = *from;
     const aur_mesh *const mesh = &from->mesh;
     const size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
-    made->file = copy_of(from->file, from->file != NULL ? strlen(from->file) + 1 : 0, &good);
-    made->flaws = (aur_face_flaws){0}; /* flaws are reported for the original */
-    made->mesh.points = copy_of(mesh->points, 3 * vertices * sizeof(double), &good);
-    made->mesh.normals = copy_of(mesh->normals, 3 * vertices * sizeof(float), &good);
-    made->mesh.uvs = copy_of(mesh->uvs, 2 * vertices * sizeof(float), &good);
-    made->mesh.vertex_colors = copy_of(mesh->vertex_colors, 3 * vertices * sizeof(float), &good);
-    made->mesh.indices = copy_of(mesh->indices, 3 * triangles * sizeof(uint32_t), &good);
-    made->mesh.sources = copy_of(mesh->sources, triangles * sizeof(uint32_t), &good);
-    made->mesh.face_colors = copy_of(mesh->face_colors, 3 * triangles * sizeof(float), &good);
+    copy->file = copy_of(from->file, from->file != NULL ? strlen(from->file) + 1 : 0, &good);
+    copy->flaws = (aur_face_flaws){0}; /* flaws are reported for the original */
+    copy->mesh.points = copy_of(mesh->points, 3 * vertices * sizeof(double), &good);
+    copy->mesh.normals = copy_of(mesh->normals, 3 * vertices * sizeof(float), &good);
+    copy->mesh.uvs = copy_of(mesh->uvs, 2 * vertices * sizeof(float), &good);
+    copy->mesh.vertex_colors = copy_of(mesh->vertex_colors, 3 * vertices * sizeof(float), &good);
+    copy->mesh.indices = copy_of(mesh->indices, 3 * triangles * sizeof(uint32_t), &good);
+    copy->mesh.sources = copy_of(mesh->sources, triangles * sizeof(uint32_t), &good);
+    copy->mesh.face_colors = copy_of(mesh->face_colors, 3 * triangles * sizeof(float), &good);
     if (good)
-        return made;
-    aur_shape_destroy(made);
+        return copy;
+    aur_shape_destroy(copy);
     return NULL;
 }
 

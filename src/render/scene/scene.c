@@ -116,7 +116,7 @@ static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, 
 
 /* Lights on degenerate meshes emit nothing: they are ignored with a warning, like degenerate faces. */
 static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings) {
-    size_t kept = 0, count = 0;
+    size_t emitting = 0, count = 0;
     aur_location first = {0};
     for (size_t i = 0; i < scene->emitter_count; ++i) {
         aur_emitter *const emitter = scene->emitters[i];
@@ -128,11 +128,11 @@ static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings
             continue;
         }
         if (shape != NULL)
-            shape->emitter = (uint32_t)kept;
-        emitter->index = (uint32_t)kept;
-        scene->emitters[kept++] = emitter;
+            shape->emitter = (uint32_t)emitting;
+        emitter->index = (uint32_t)emitting;
+        scene->emitters[emitting++] = emitter;
     }
-    scene->emitter_count = kept;
+    scene->emitter_count = emitting;
     if (count > 0)
         aur_warn_at(warnings, first, "%zu lights have no area and give no light (the first is here)", count);
 }
@@ -173,42 +173,42 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
     if (result != AUR_OK)
         return result;
-    aur_scene *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_scene *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->keeps_points = keep_points;
-    made->overlap_rule = rule;
-    made->definitions = aur_definitions_text(&options);
+    created->keeps_points = keep_points;
+    created->overlap_rule = rule;
+    created->definitions = aur_definitions_text(&options);
     if (options.texture_memory > 0)
-        made->texel_pages = aur_texel_pages_create(options.texture_memory);
+        created->texel_pages = aur_texel_pages_create(options.texture_memory);
     const bool has_memory =
-        made->definitions != NULL && (options.texture_memory == 0 || made->texel_pages != NULL);
-    result = has_memory ? aur_xml_read(path, bytes, data, &options, &made->document, error)
+        created->definitions != NULL && (options.texture_memory == 0 || created->texel_pages != NULL);
+    result = has_memory ? aur_xml_read(path, bytes, data, &options, &created->document, error)
                         : aur_fail_memory(error);
     if (result == AUR_OK)
-        result = aur_scene_build(made, &options, error);
+        result = aur_scene_build(created, &options, error);
     if (result == AUR_OK)
-        result = aur_scene_cut_overlaps(made, options.threads, error);
+        result = aur_scene_cut_overlaps(created, options.threads, error);
     if (result == AUR_OK && !keep_points)
-        aur_scene_warn_of_overlaps(made, &options.warnings);
+        aur_scene_warn_of_overlaps(created, &options.warnings);
     if (result == AUR_OK)
-        result = aur_scene_recenter(made, &options.warnings, error);
+        result = aur_scene_recenter(created, &options.warnings, error);
     if (result == AUR_OK)
-        result = aur_scene_build_accel(made, options.threads, error);
+        result = aur_scene_build_accel(created, options.threads, error);
     if (result == AUR_OK)
-        result = check_reach(made, error);
+        result = check_reach(created, error);
     if (result == AUR_OK) {
-        find_sphere(made);
-        warn_of_tiny(made, &options.warnings);
-        aur_scene_warn_of_faces(made, &options.warnings);
-        leave_out_dark_lights(made, &options.warnings);
-        result = prepare_lights(made, error);
+        find_sphere(created);
+        warn_of_tiny(created, &options.warnings);
+        aur_scene_warn_of_faces(created, &options.warnings);
+        leave_out_dark_lights(created, &options.warnings);
+        result = prepare_lights(created, error);
     }
     if (result != AUR_OK) {
-        aur_scene_destroy(made);
+        aur_scene_destroy(created);
         return result;
     }
-    *scene = made;
+    *scene = created;
     return AUR_OK;
 }
 
@@ -284,8 +284,8 @@ void aur_scene_destroy(aur_scene *scene) {
 
 aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_description *description,
                                      aur_error *error) {
-    aur_scene_description made = {
-        .size = sizeof made,
+    aur_scene_description described = {
+        .size = sizeof described,
 
         .shapes = scene->shape_count,
         .emitters = scene->emitter_count,
@@ -297,15 +297,15 @@ aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_descripti
         .sampler = scene->sampler,
         .filter = aur_filter_name(scene->film.filter),
     };
-    aur_vector_to_doubles(scene->lower, made.lower);
-    aur_vector_to_doubles(scene->upper, made.upper);
+    aur_vector_to_doubles(scene->lower, described.lower);
+    aur_vector_to_doubles(scene->upper, described.upper);
     for (size_t i = 0; i < 3; ++i) {
-        made.lower[i] += scene->origin[i];
-        made.upper[i] += scene->origin[i];
+        described.lower[i] += scene->origin[i];
+        described.upper[i] += scene->origin[i];
     }
     for (size_t i = 0; i < scene->shape_count; ++i)
-        made.triangles += scene->shapes[i]->mesh.triangle_count;
-    return aur_description_write(&made, sizeof made, description, "aur_scene_description", error);
+        described.triangles += scene->shapes[i]->mesh.triangle_count;
+    return aur_description_write(&described, sizeof described, description, "aur_scene_description", error);
 }
 
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {

@@ -48,7 +48,7 @@ AUR_INTERNAL bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray)
  * any orientation. The result is conservative. Needed because rays only resolve distances to float precision.
  */
 AUR_INTERNAL void aur_scene_near(const aur_scene *scene, aur_vector point, float radius,
-                                 void (*found)(void *context, const aur_hit *place), void *context);
+                                 void (*found)(void *context, const aur_hit *hit), void *context);
 
 /* The surface at a hit. */
 AUR_INTERNAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,

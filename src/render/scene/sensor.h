@@ -32,7 +32,7 @@ typedef struct aur_sensor_descriptor {
 
 struct aur_sensor {
     const aur_sensor_descriptor *descriptor;
-    double place[3];    /* position in the world */
+    double position[3]; /* position in the world */
     float to_world[12]; /* row major 3x4, to coordinates relative to the scene's origin */
     float near_clip, far_clip;
     float offset_x, offset_y; /* principal point, as a fraction of the film */

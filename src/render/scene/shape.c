@@ -133,8 +133,8 @@ void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lo
     if (curves->segment_count == 0) {
         shape->curved->bounds(shape, primitive, lower, upper); /* `center` is still 0 */
         for (size_t d = 0; d < 3; ++d) {
-            lower[d] += shape->place[d];
-            upper[d] += shape->place[d];
+            lower[d] += shape->position[d];
+            upper[d] += shape->position[d];
         }
         return;
     }
@@ -144,7 +144,7 @@ void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lo
     }
     for (size_t i = 0; i < (curves->smooth ? 4u : 2u); ++i) {
         const size_t point = curves->firsts[primitive] + i;
-        const double *const center = &curves->places[3 * point],
+        const double *const center = &curves->positions[3 * point],
                             radius = (double)curves->points[4 * point + 3];
         for (size_t d = 0; d < 3; ++d) {
             lower[d] = center[d] - radius < lower[d] ? center[d] - radius : lower[d];

@@ -25,10 +25,10 @@ typedef struct aur_shape_point {
 /* Curves with radii, such as hair. */
 typedef struct aur_curves {
     size_t point_count, segment_count;
-    double *places;   /* world coordinates of each control point, until the shape is recentred */
-    float *points;    /* coordinates relative to the origin, and radius, of each control point */
-    uint32_t *firsts; /* first control point of each segment; 1 or 3 more follow */
-    bool smooth;      /* cubic B-splines; else rounded cones between consecutive points */
+    double *positions; /* world coordinates of each control point, until the shape is recentred */
+    float *points;     /* coordinates relative to the origin, and radius, of each control point */
+    uint32_t *firsts;  /* first control point of each segment; 1 or 3 more follow */
+    bool smooth;       /* cubic B-splines; else rounded cones between consecutive points */
 } aur_curves;
 
 /* The functions of a shape that is not a mesh. All coordinates are relative to the scene's origin. Hits have
@@ -67,7 +67,7 @@ struct aur_shape {
     bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */
     bool ellipse;       /* flat, with the half axes axis[0] and axis[1] */
     bool flipped;       /* curved shapes: the normal is reversed */
-    double place[3];    /* curved shapes: the local origin in the world */
+    double position[3]; /* curved shapes: the local origin in the world */
     aur_vector
         center; /* curved shapes: the same relative to the scene's origin; 0 before aur_shape_recenter */
     aur_vector axis[3]; /* curved shapes: the local axes */

@@ -152,11 +152,11 @@ static bool attach_shape(aur_scene *scene, aur_embree_scene to, uint32_t id) {
 }
 
 static aur_embree_scene new_scene(const aur_scene *scene) {
-    const aur_embree_scene made = rtcNewScene(scene->device);
+    const aur_embree_scene created = rtcNewScene(scene->device);
     /* Robust traversal leaves no gaps between triangles that share an edge: closed rooms stay closed. */
-    if (made != NULL)
-        rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
-    return made;
+    if (created != NULL)
+        rtcSetSceneFlags(created, RTC_SCENE_FLAG_ROBUST);
+    return created;
 }
 
 static bool build_group(aur_scene *scene, aur_shape_group *group) {

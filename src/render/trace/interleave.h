@@ -32,9 +32,9 @@ static inline uint32_t aur_group_pixel_index(uint64_t hash, uint32_t group, size
 
 /* The pixel of a group's lane, counted row by row within the tile. */
 static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane) {
-    const uint32_t place = aur_group_pixel_index(hash, group, lane);
-    const size_t x = place % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
-    const size_t y = place / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
+    const uint32_t index = aur_group_pixel_index(hash, group, lane);
+    const size_t x = index % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
+    const size_t y = index / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
     return y * AUR_TILE_SIZE + x;
 }
 

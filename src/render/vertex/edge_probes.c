@@ -159,7 +159,7 @@ static aur_result survey_centres(void *context, size_t y) {
  * samples, all pixels within reach of an edge have its error, because the weights of surrounding samples are
  * random. */
 static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
-    const float alike = 0.9f;
+    const float similar = 0.9f;
     const double nearly_whole = 0.9, small = 0.25;
     const size_t width = s->view->width, height = s->view->height;
     float least = INFINITY, most = 0.0f;
@@ -179,7 +179,7 @@ static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
     const double part = 0.25, unlike = part * (double)(most - least);
     if (s->view->reach > 0)
         *variance = fmax(*variance, unlike * unlike);
-    return near || least < alike * most;
+    return near || least < similar * most;
 }
 
 static double variance_of(const probe_sums *sums) {

@@ -45,8 +45,8 @@ static uint32_t lanes_tilted(const aur_vertex_lanes *lanes, size_t first) {
     uint32_t tilted = 0;
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_vector offset = aur_vector_subtract(aur_lane_vector(&lanes->position, k), reference);
-        const float alike = aur_vector_dot(aur_lane_vector(&lanes->normal, k), normal) * lanes->side[k];
-        tilted |= aur_is_off_plane(offset, normal, alike) << k;
+        const float cosine = aur_vector_dot(aur_lane_vector(&lanes->normal, k), normal) * lanes->side[k];
+        tilted |= aur_is_off_plane(offset, normal, cosine) << k;
     }
     return tilted;
 }

@@ -7,15 +7,15 @@
 #include "calls.h"
 
 static void errors(void) {
-    aur_error own = {0};
-    require(aur_fail(&own, AUR_ERROR_FORMAT, "%d words", 2) == AUR_ERROR_FORMAT, "aur_fail");
+    aur_error problem = {0};
+    require(aur_fail(&problem, AUR_ERROR_FORMAT, "%d words", 2) == AUR_ERROR_FORMAT, "aur_fail");
     char text[32];
-    require(aur_error_format(&own, sizeof text, text) == strlen(text), "aur_error_format");
+    require(aur_error_format(&problem, sizeof text, text) == strlen(text), "aur_error_format");
     require(strlen(aur_result_string((aur_result)99)) > 0, "aur_result_string");
     int major;
     require(sscanf(aur_version(), "%d.", &major) == 1 && major == AUREOLE_VERSION_MAJOR, "aur_version");
-    accept(aur_file_write("calls.txt", 4, "text", &own), &own);
-    refuse(aur_file_write("no such folder/calls.txt", 4, "text", &own), AUR_ERROR_WRITE, &own);
+    accept(aur_file_write("calls.txt", 4, "text", &problem), &problem);
+    refuse(aur_file_write("no such folder/calls.txt", 4, "text", &problem), AUR_ERROR_WRITE, &problem);
     remove("calls.txt");
 }
 

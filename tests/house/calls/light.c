@@ -94,13 +94,13 @@ static void pictures(void) {
     refuse(aur_image_read_memory("calls", 4, bytes, &other, &error), AUR_ERROR_FORMAT, &error);
     const char *const green[] = {"G"};
     accept(aur_image_select(image, 1, green, &other, &error), &error);
-    aur_image *made[4];
-    accept(aur_image_downsample(image, 2, &made[0], &error), &error);
-    accept(aur_image_flip(image, image, &made[1], &error), &error);
-    accept(aur_image_false_color(other, 1.0, &made[2], &error), &error);
-    accept(aur_image_difference(image, image, 1.0, &made[3], &error), &error);
+    aur_image *created[4];
+    accept(aur_image_downsample(image, 2, &created[0], &error), &error);
+    accept(aur_image_flip(image, image, &created[1], &error), &error);
+    accept(aur_image_false_color(other, 1.0, &created[2], &error), &error);
+    accept(aur_image_difference(image, image, 1.0, &created[3], &error), &error);
     for (size_t i = 0; i < 4; ++i)
-        aur_image_destroy(made[i]);
+        aur_image_destroy(created[i]);
     aur_image_destroy(other);
     aur_image_destroy(image);
     float pixel = 1.0f;

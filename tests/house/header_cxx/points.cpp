@@ -47,9 +47,10 @@ int main() {
 
     aur_directions_options options =
         aureole::options<aur_directions_options>(aur_directions_options_init, 128, AUR_DOMAIN_SPHERE);
-    const points made("spherical-fibonacci", options);
-    require(made.size() == 128 && made.weights().empty() && made.coordinates()[5] == xyz[5], "points");
-    require(measure("energy", made.view()) == measure("energy", view_of(AUR_DOMAIN_SPHERE, 3, xyz)),
+    const points generated("spherical-fibonacci", options);
+    require(generated.size() == 128 && generated.weights().empty() && generated.coordinates()[5] == xyz[5],
+            "points");
+    require(measure("energy", generated.view()) == measure("energy", view_of(AUR_DOMAIN_SPHERE, 3, xyz)),
             "measures");
     require(thrown([] { points::read("nowhere.csv"); }) == AUR_ERROR_OPEN, "a file that is not there");
 
@@ -98,7 +99,7 @@ int main() {
     }
     require(passed, "what a function throws goes through the library");
 
-    const nearest tree(made.view());
+    const nearest tree(generated.view());
     require(tree.find(span<const double>(xyz.data() + 30, 3), 3)[0] == 10, "the nearest point of a point");
     return failures != 0;
 }

@@ -29,18 +29,18 @@ static void take(const char *set, aur_domain domain, size_t dimension, aur_scram
     aur_points_request request;
     request.size = sizeof request;
     aur_points_request_init(&options, &request, NULL);
-    aur_points *made = NULL;
+    aur_points *generated = NULL;
     options.scramble = scramble;
     options.seed = 11;
     request.dimension = dimension;
-    if (aur_points_generate(set, &request, &made, &error) != AUR_OK) {
+    if (aur_points_generate(set, &request, &generated, &error) != AUR_OK) {
         printf("%s: %s\n", set, error.message);
         ++failures;
         return;
     }
-    memcpy(points, aur_points_get_view(made)->coordinates,
-           COUNT * aur_points_get_view(made)->dimension * sizeof *points);
-    aur_points_destroy(made);
+    memcpy(points, aur_points_get_view(generated)->coordinates,
+           COUNT * aur_points_get_view(generated)->dimension * sizeof *points);
+    aur_points_destroy(generated);
 }
 
 static void squares(void) {

@@ -198,9 +198,9 @@ static void oldest_go_first(void **state) {
     assert_null(aur_cache_file_read("kind", "b", &size));
     for (const char *c = "cdef"; *c != '\0'; ++c) {
         key[0] = *c;
-        char *const kept = aur_cache_file_read("kind", key, &size);
-        assert_true(kept != NULL && size == MANY - 100 && memcmp(kept, data, size) == 0);
-        free(kept);
+        char *const stored = aur_cache_file_read("kind", key, &size);
+        assert_true(stored != NULL && size == MANY - 100 && memcmp(stored, data, size) == 0);
+        free(stored);
     }
     assert_true(is_stored("a", "x"));
     assert_int_equal(access(path, F_OK), 0);
@@ -219,9 +219,9 @@ static void processes_at_once(void **state) {
             for (size_t i = 0; i < ROUNDS; ++i) {
                 aur_cache_file_write("kind", "shared", BYTES, data);
                 size_t size;
-                char *const kept = aur_cache_file_read("kind", "shared", &size);
-                good = good && kept != NULL && size == BYTES && kept[0] == kept[BYTES - 1];
-                free(kept);
+                char *const stored = aur_cache_file_read("kind", "shared", &size);
+                good = good && stored != NULL && size == BYTES && stored[0] == stored[BYTES - 1];
+                free(stored);
             }
             free(data);
             _exit(good ? 0 : 1);

@@ -282,10 +282,10 @@ static aur_result give_text(void *user, char **data, size_t *size, aur_error *er
 
 static void one_process_reads_and_writes_for_all(void **state) {
     (void)state;
-    char text[] = "of the leader", place[] = "/tmp/aureole-test-XXXXXX", path[64];
+    char text[] = "of the leader", shared[] = "/tmp/aureole-test-XXXXXX", path[64];
     const aur_io io = {.user = text, .rank = 1, .count = 2, .agree = give_nothing_bad, .share = give_text};
-    assert_non_null(mkdtemp(place));
-    snprintf(path, sizeof path, "%s/out.txt", place);
+    assert_non_null(mkdtemp(shared));
+    snprintf(path, sizeof path, "%s/out.txt", shared);
     assert_null(aur_io_use(&io));
     char *data;
     size_t size;
@@ -293,12 +293,12 @@ static void one_process_reads_and_writes_for_all(void **state) {
     assert_string_equal(data, text);
     free(data);
     struct stat status;
-    assert_false(aur_file_status(place, &status));
+    assert_false(aur_file_status(shared, &status));
     assert_int_equal(aur_file_write(path, 1, "x", NULL), AUR_OK);
     assert_ptr_equal(aur_io_use(NULL), &io);
     assert_int_not_equal(access(path, F_OK), 0);
-    assert_true(aur_file_status(place, &status));
-    assert_int_equal(rmdir(place), 0);
+    assert_true(aur_file_status(shared, &status));
+    assert_int_equal(rmdir(shared), 0);
 }
 
 int main(void) {

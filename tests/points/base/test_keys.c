@@ -42,55 +42,55 @@ static const aur_key keys[] = {
 
 static const aur_row row = {.name = "thing", .summary = "", .source = "", AUR_ROW_KEYS(keys)};
 
-static aur_result read(const char *text, thing *made, aur_error *error) {
+static aur_result read(const char *text, thing *parsed, aur_error *error) {
     aur_parameters parameters;
-    *made = (thing){.computed = -1.0};
+    *parsed = (thing){.computed = -1.0};
     *error = (aur_error){0};
     assert_int_equal(aur_parameters_parse(&parameters, "thing", text, error), AUR_OK);
-    const aur_result result = aur_row_read(&row, &parameters, made, error);
-    made->item = NULL; /* the parameters' own */
-    if (made->text != NULL && strcmp(made->text, "sobol") != 0)
-        made->text = NULL;
+    const aur_result result = aur_row_read(&row, &parameters, parsed, error);
+    parsed->item = NULL; /* the parameters' own */
+    if (parsed->text != NULL && strcmp(parsed->text, "sobol") != 0)
+        parsed->text = NULL;
     aur_parameters_release(&parameters);
     return result;
 }
 
 static void takes_the_defaults(void **state) {
     (void)state;
-    thing made;
+    thing parsed;
     aur_error error;
-    assert_int_equal(read("thing", &made, &error), AUR_OK);
-    assert_true(made.flag);
-    assert_int_equal(made.number, 7);
-    assert_int_equal(made.small, 1);
-    assert_near(made.real, 1.5, 0);
-    assert_near(made.single, 0.25, 0);
-    assert_int_equal(made.color, GREEN);
-    assert_string_equal(made.text, "sobol");
-    assert_near(made.vector[0], 0, 0);
-    assert_near(made.vector[2], 1, 0);
-    assert_near(made.triple[2], 2, 0);
-    assert_near(made.shade.constant.y, 0.5, 0);
-    assert_near(made.computed, -1, 0); /* left alone */
+    assert_int_equal(read("thing", &parsed, &error), AUR_OK);
+    assert_true(parsed.flag);
+    assert_int_equal(parsed.number, 7);
+    assert_int_equal(parsed.small, 1);
+    assert_near(parsed.real, 1.5, 0);
+    assert_near(parsed.single, 0.25, 0);
+    assert_int_equal(parsed.color, GREEN);
+    assert_string_equal(parsed.text, "sobol");
+    assert_near(parsed.vector[0], 0, 0);
+    assert_near(parsed.vector[2], 1, 0);
+    assert_near(parsed.triple[2], 2, 0);
+    assert_near(parsed.shade.constant.y, 0.5, 0);
+    assert_near(parsed.computed, -1, 0); /* left alone */
 }
 
 static void takes_what_is_given(void **state) {
     (void)state;
-    thing made;
+    thing parsed;
     aur_error error;
     assert_int_equal(read("thing:flag=False,number=-3,small=4000000000,real=1.25,single=0,color=blue,"
                           "vector=(1 2 inf),triple=(1,2,3),shade=1,computed=inf,item=(path:rr_depth=3)",
-                          &made, &error),
+                          &parsed, &error),
                      AUR_OK);
-    assert_false(made.flag);
-    assert_int_equal(made.number, -3);
-    assert_true(made.small == 4000000000u);
-    assert_near(made.real, 1.25, 0);
-    assert_int_equal(made.color, BLUE);
-    assert_true(isinf(made.vector[2]));
-    assert_near(made.triple[1], 2, 0);
-    assert_near(made.shade.constant.z, 1, 0);
-    assert_true(isinf(made.computed));
+    assert_false(parsed.flag);
+    assert_int_equal(parsed.number, -3);
+    assert_true(parsed.small == 4000000000u);
+    assert_near(parsed.real, 1.25, 0);
+    assert_int_equal(parsed.color, BLUE);
+    assert_true(isinf(parsed.vector[2]));
+    assert_near(parsed.triple[1], 2, 0);
+    assert_near(parsed.shade.constant.z, 1, 0);
+    assert_true(isinf(parsed.computed));
 }
 
 static void says_what_is_wrong(void **state) {
@@ -115,9 +115,9 @@ static void says_what_is_wrong(void **state) {
                         "number, single, vector, triple, computed, transform"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        thing made;
+        thing parsed;
         aur_error error;
-        assert_int_not_equal(read(wrong[i][0], &made, &error), AUR_OK);
+        assert_int_not_equal(read(wrong[i][0], &parsed, &error), AUR_OK);
         assert_string_equal(error.message, wrong[i][1]);
     }
 }
@@ -137,13 +137,13 @@ static void minds_the_types_of_scenes(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         aur_parameters parameters;
         aur_error error = {0};
-        thing made;
-        const aur_location place = {"scene.xml", 3, 4};
-        assert_int_equal(aur_parameters_init(&parameters, "thing", "thing", place, &error), AUR_OK);
-        assert_int_equal(
-            aur_parameters_add_text(&parameters, cases[i].kind, cases[i].name, cases[i].text, place, &error),
-            AUR_OK);
-        assert_int_equal(aur_row_read(&row, &parameters, &made, &error) == AUR_OK, cases[i].good);
+        thing parsed;
+        const aur_location location = {"scene.xml", 3, 4};
+        assert_int_equal(aur_parameters_init(&parameters, "thing", "thing", location, &error), AUR_OK);
+        assert_int_equal(aur_parameters_add_text(&parameters, cases[i].kind, cases[i].name, cases[i].text,
+                                                 location, &error),
+                         AUR_OK);
+        assert_int_equal(aur_row_read(&row, &parameters, &parsed, &error) == AUR_OK, cases[i].good);
         if (!cases[i].good)
             assert_int_equal(error.line, 3);
         aur_parameters_release(&parameters);

@@ -5,10 +5,10 @@
 #include "points/base/error.h"
 
 /* The struct of the library, and the callers' structs of an older and of a newer header. */
-typedef struct own_options {
+typedef struct test_options {
     size_t size;
     double a, b;
-} own_options;
+} test_options;
 typedef struct old_options {
     size_t size;
     double a;
@@ -18,46 +18,48 @@ typedef struct new_options {
     double a, b, c;
 } new_options;
 
-static aur_result read(const void *given, own_options *own, aur_error *error) {
-    *own = (own_options){.a = 1, .b = 2};
-    return aur_options_read(given, sizeof *own, own, "options", error);
+static aur_result read(const void *given, test_options *read_options, aur_error *error) {
+    *read_options = (test_options){.a = 1, .b = 2};
+    return aur_options_read(given, sizeof *read_options, read_options, "options", error);
 }
 
 static void reads_older_and_newer_structs(void **state) {
     (void)state;
     aur_error error;
-    own_options own;
-    assert_int_equal(read(NULL, &own, &error), AUR_OK);
-    assert_true(own.a == 1 && own.b == 2);
+    test_options read_options;
+    assert_int_equal(read(NULL, &read_options, &error), AUR_OK);
+    assert_true(read_options.a == 1 && read_options.b == 2);
     const old_options old = {.size = sizeof old, .a = 5};
-    assert_int_equal(read(&old, &own, &error), AUR_OK);
-    assert_true(own.a == 5 && own.b == 2 && own.size == sizeof own);
+    assert_int_equal(read(&old, &read_options, &error), AUR_OK);
+    assert_true(read_options.a == 5 && read_options.b == 2 && read_options.size == sizeof read_options);
     new_options newer = {.size = sizeof newer, .a = 5, .b = 6};
-    assert_int_equal(read(&newer, &own, &error), AUR_OK);
-    assert_true(own.a == 5 && own.b == 6);
+    assert_int_equal(read(&newer, &read_options, &error), AUR_OK);
+    assert_true(read_options.a == 5 && read_options.b == 6);
     newer.c = 1;
-    assert_int_equal(read(&newer, &own, &error), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(read(&newer, &read_options, &error), AUR_ERROR_UNSUPPORTED);
     const size_t never_sizes[] = {0, sizeof(size_t) / 2, sizeof(size_t) + 4};
     for (size_t i = 0; i < sizeof never_sizes / sizeof never_sizes[0]; ++i) {
         const old_options unset = {.size = never_sizes[i], .a = 5};
-        assert_int_equal(read(&unset, &own, &error), AUR_ERROR_ARGUMENT);
+        assert_int_equal(read(&unset, &read_options, &error), AUR_ERROR_ARGUMENT);
         assert_non_null(strstr(error.message, "size"));
-        assert_true(own.a == 1 && own.b == 2); /* untouched by an error */
+        assert_true(read_options.a == 1 && read_options.b == 2); /* untouched by an error */
     }
     const size_t first = sizeof first; /* the struct of a header before `a` came */
-    assert_int_equal(read(&first, &own, &error), AUR_OK);
-    assert_true(own.a == 1 && own.b == 2 && own.size == sizeof own);
+    assert_int_equal(read(&first, &read_options, &error), AUR_OK);
+    assert_true(read_options.a == 1 && read_options.b == 2 && read_options.size == sizeof read_options);
 }
 
 static void fills_older_and_newer_descriptions(void **state) {
     (void)state;
     aur_error error;
-    const own_options own = {.size = sizeof own, .a = 1, .b = 2};
+    const test_options read_options = {.size = sizeof read_options, .a = 1, .b = 2};
     old_options old = {.size = sizeof old};
-    assert_int_equal(aur_description_write(&own, sizeof own, &old, "description", &error), AUR_OK);
+    assert_int_equal(aur_description_write(&read_options, sizeof read_options, &old, "description", &error),
+                     AUR_OK);
     assert_true(old.a == 1 && old.size == sizeof old);
     new_options newer = {.size = sizeof newer, .c = 9};
-    assert_int_equal(aur_description_write(&own, sizeof own, &newer, "description", &error), AUR_OK);
+    assert_int_equal(aur_description_write(&read_options, sizeof read_options, &newer, "description", &error),
+                     AUR_OK);
     assert_true(newer.a == 1 && newer.b == 2 && newer.c == 0 && newer.size == sizeof newer);
 }
 

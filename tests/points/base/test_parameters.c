@@ -63,9 +63,9 @@ static void lists_a_key_once(void **state) {
     aur_parameters parameters;
     aur_error error = {0};
     assert_int_equal(aur_parameters_parse(&parameters, "set", "x:zzzz=3", &error), AUR_OK);
-    static const char *const asked[] = {"first", "second", "first", "third", "second", "first"};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i)
-        assert_null(aur_parameters_find(&parameters, asked[i]));
+    static const char *const names[] = {"first", "second", "first", "third", "second", "first"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        assert_null(aur_parameters_find(&parameters, names[i]));
     assert_int_equal(aur_parameters_finish(&parameters, &error), AUR_ERROR_NAME);
     assert_string_equal(error.message, "set 'x' has no 'zzzz'; it has: first, third, second");
     aur_parameters_release(&parameters);

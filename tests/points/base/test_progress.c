@@ -30,13 +30,13 @@ static void test_pieces(void **state) {
     assert_null(aur_progress_within(&span).function);
 }
 
-typedef struct told {
+typedef struct report {
     uint64_t done, total;
-} told;
+} report;
 
 static int keep_both(void *user, const char *what, uint64_t done, uint64_t total) {
     (void)what;
-    *(told *)user = (told){done, total};
+    *(report *)user = (report){done, total};
     return 0;
 }
 
@@ -44,11 +44,11 @@ static int keep_both(void *user, const char *what, uint64_t done, uint64_t total
  * decreases, and its rate predicts the remaining work. If the total is unknown, the share waits. */
 static void test_share(void **state) {
     (void)state;
-    told seen;
+    report seen;
     const aur_progress progress = {keep_both, &seen};
-    aur_progress_share known = {0}, s = {0};
+    aur_progress_share share = {0}, s = {0};
     for (int i = 1; i <= 10; ++i) {
-        aur_progress_report_work(&progress, "all", &known, i, 10 - i);
+        aur_progress_report_work(&progress, "all", &share, i, 10 - i);
         assert_near((double)seen.done / (double)seen.total, fmin(i / 10.0, 1.0 - 1e-9), 1e-11);
     }
     const double lefts[] = {INFINITY, 100.0, 99.0, 10.0, 500.0, 3.0, INFINITY, 40.0};

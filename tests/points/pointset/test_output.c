@@ -128,16 +128,16 @@ static void instruction_sets_agree(void **state) {
     _Alignas(64) static double plain[3 * LONGEST + 8], wide[3 * LONGEST + 8];
     const char *const before = getenv("AUREOLE_ISA");
     char *const saved = before != NULL ? strdup(before) : NULL;
-    for (size_t trial = 0; trial < 600 * SETS; ++trial) {
-        const size_t k = trial % SETS;
-        const size_t round = trial / SETS;
+    for (size_t attempt = 0; attempt < 600 * SETS; ++attempt) {
+        const size_t k = attempt % SETS;
+        const size_t round = attempt / SETS;
         const size_t dimension = sets[k].plane ? 2 : 1 + round % 3;
         const aur_pointset_options options = {
             .size = sizeof options,
             .count = sets[k].size,
             .dimension = dimension,
             .scramble = scrambles[sets[k].digits ? round / 3 % 4 : 3 * (round / 3 % 2)],
-            .seed = trial};
+            .seed = attempt};
         aur_pointset *const set = make_set(sets[k].text, options);
         const size_t count = 1 + round * 7 % (round % 10 == 0 ? LONGEST : 300);
         const uint64_t base = bases[round / 12 % 4] + round % 67;
@@ -244,11 +244,11 @@ static void owen_flips_are_fair(void **state) {
 /* Points above the digit where two words part stay together: the scrambling is nested. */
 static void owen_is_nested(void **state) {
     (void)state;
-    for (uint64_t trial = 0; trial < 20000; ++trial) {
-        const uint64_t a = aur_hash2(trial, 1), key = aur_hash2(trial, 2);
-        const unsigned digit = (unsigned)(trial % 64);
+    for (uint64_t attempt = 0; attempt < 20000; ++attempt) {
+        const uint64_t a = aur_hash2(attempt, 1), key = aur_hash2(attempt, 2);
+        const unsigned digit = (unsigned)(attempt % 64);
         const uint64_t b =
-            a ^ UINT64_C(1) << (63 - digit) ^ (digit < 63 ? aur_hash2(trial, 3) >> (digit + 1) : 0);
+            a ^ UINT64_C(1) << (63 - digit) ^ (digit < 63 ? aur_hash2(attempt, 3) >> (digit + 1) : 0);
         const uint64_t difference = aur_owen_word(a, key) ^ aur_owen_word(b, key);
         assert_int_equal(__builtin_clzll(difference), digit);
     }

@@ -130,9 +130,9 @@ static double sliced_distance(const char *set) {
 static void slices_are_even(void **state) {
     (void)state;
     static const char *const others[] = {"sobol", "bnot", "jittered", "pmj02"};
-    const double own = sliced_distance("sliced");
+    const double distance = sliced_distance("sliced");
     for (size_t k = 0; k < sizeof others / sizeof others[0]; ++k)
-        assert_true(own < sliced_distance(others[k]));
+        assert_true(distance < sliced_distance(others[k]));
 }
 
 int main(void) {

@@ -24,11 +24,11 @@ static void cells_are_those_of_brute_force(void **state) {
     aur_point2 sites[MOST];
     double weights[MOST];
     aur_power_cell cells[MOST];
-    for (size_t trial = 0; trial < 5; ++trial) {
-        const size_t count = counts[trial];
-        random_sites(trial, count, sites);
+    for (size_t attempt = 0; attempt < 5; ++attempt) {
+        const size_t count = counts[attempt];
+        random_sites(attempt, count, sites);
         for (size_t i = 0; i < count; ++i)
-            weights[i] = 0.02 * aur_unit_double(aur_hash2(trial, i)) / (double)count;
+            weights[i] = 0.02 * aur_unit_double(aur_hash2(attempt, i)) / (double)count;
         aur_power_diagram diagram = {.count = count, .sites = sites, .weights = weights, .cells = cells};
         assert_true(aur_site_grid_create(&diagram.grid, count));
         aur_site_grid_fill(&diagram.grid, count, sites);
@@ -102,15 +102,15 @@ static void warm_starts_change_nothing(void **state) {
     static aur_point2 sites[COUNT];
     static double weights[COUNT];
     static aur_power_cell cold[COUNT], warm[COUNT];
-    for (uint64_t trial = 0; trial < 20; ++trial) {
-        random_sites(trial, COUNT, sites);
+    for (uint64_t attempt = 0; attempt < 20; ++attempt) {
+        random_sites(attempt, COUNT, sites);
         aur_power_diagram diagram = {.count = COUNT, .sites = sites, .weights = weights, .cells = warm};
         assert_true(aur_site_grid_create(&diagram.grid, COUNT));
         aur_site_grid_fill(&diagram.grid, COUNT, sites);
         aur_power_diagram_compute(&diagram);
         for (size_t i = 0; i < COUNT; ++i) {
-            sites[i].x = aur_unwrap(sites[i].x + 0.05 * (aur_unit_double(aur_hash3(trial, i, 2)) - 0.5));
-            weights[i] = 0.001 * aur_unit_double(aur_hash3(trial, i, 3));
+            sites[i].x = aur_unwrap(sites[i].x + 0.05 * (aur_unit_double(aur_hash3(attempt, i, 2)) - 0.5));
+            weights[i] = 0.001 * aur_unit_double(aur_hash3(attempt, i, 3));
         }
         aur_site_grid_fill(&diagram.grid, COUNT, sites);
         diagram.warm = true;
@@ -219,22 +219,22 @@ static void results_are_cached(void **state) {
     const aur_pointset_options options = {.size = sizeof options, .count = 20, .seed = 5};
     double *const computed = make_points("bnot", options);
     size_t size;
-    char *const kept = aur_cache_file_read("bnot", "bnot 2 20 5", &size);
-    assert_non_null(kept);
+    char *const stored = aur_cache_file_read("bnot", "bnot 2 20 5", &size);
+    assert_non_null(stored);
     assert_int_equal(size, 40 * sizeof *computed);
     /* Reads return the stored data, whatever they are, unless they are too short. */
     const double half = 0.5;
-    memcpy(kept, &half, sizeof half);
-    aur_cache_file_write("bnot", "bnot 2 20 5", size, kept);
+    memcpy(stored, &half, sizeof half);
+    aur_cache_file_write("bnot", "bnot 2 20 5", size, stored);
     double *const read = make_points("bnot", options);
     assert_true(read[0] == half);
     assert_memory_equal(computed + 1, read + 1, 39 * sizeof *read);
     free(read);
-    aur_cache_file_write("bnot", "bnot 2 20 5", size - 8, kept);
+    aur_cache_file_write("bnot", "bnot 2 20 5", size - 8, stored);
     double *const again = make_points("bnot", options);
     assert_memory_equal(computed, again, 40 * sizeof *again);
     free(again);
-    free(kept);
+    free(stored);
     setenv("AUREOLE_CACHE", "", 1);
     double *const unkept = make_points("bnot", options);
     assert_memory_equal(computed, unkept, 40 * sizeof *unkept);

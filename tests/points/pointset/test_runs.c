@@ -28,11 +28,12 @@ static void quotients_are_divisions(void **state) {
     (void)state;
     enum { COUNT = 777 };
     double plain[COUNT], wide[COUNT];
-    for (uint64_t trial = 0; trial < 4000; ++trial) {
-        const uint64_t power = UINT64_C(1) << (trial % 47 + 2);
-        const uint64_t size = trial < 700 ? trial + 1 : power - aur_hash2(trial, 0) % (trial % 9 + 1) % power;
-        const uint64_t position = aur_hash2(trial, 1) % size;
-        const uint64_t step = aur_hash2(trial, 2) % size;
+    for (uint64_t attempt = 0; attempt < 4000; ++attempt) {
+        const uint64_t power = UINT64_C(1) << (attempt % 47 + 2);
+        const uint64_t size =
+            attempt < 700 ? attempt + 1 : power - aur_hash2(attempt, 0) % (attempt % 9 + 1) % power;
+        const uint64_t position = aur_hash2(attempt, 1) % size;
+        const uint64_t step = aur_hash2(attempt, 2) % size;
         aur_runs_portable.multiples(&(aur_multiples){.position = position, .step = step, .size = size}, COUNT,
                                     plain);
         for (size_t f = 1; f < form_count; ++f) {
@@ -43,7 +44,7 @@ static void quotients_are_divisions(void **state) {
         }
         double numerators[COUNT];
         for (size_t i = 0; i < COUNT; ++i)
-            numerators[i] = (double)(int64_t)(aur_hash2(trial, i + 3) % ((size + 1) / 2));
+            numerators[i] = (double)(int64_t)(aur_hash2(attempt, i + 3) % ((size + 1) / 2));
         const double base = (double)(int64_t)(size / 2);
         aur_runs_portable.quotients(base, numerators, (double)(int64_t)size, COUNT, plain);
         for (size_t f = 1; f < form_count; ++f) {
@@ -56,9 +57,9 @@ static void quotients_are_divisions(void **state) {
 /* The smallest value's index against a search through all. */
 static void golden_order_begins_with_the_smallest(void **state) {
     (void)state;
-    for (uint64_t trial = 0; trial < 3000; ++trial) {
-        const uint64_t count = 1 + (trial < 600 ? trial : aur_hash2(trial, 0) % 20000);
-        const uint64_t seed = trial % 3 == 0 ? 0 : aur_hash2(trial, 1);
+    for (uint64_t attempt = 0; attempt < 3000; ++attempt) {
+        const uint64_t count = 1 + (attempt < 600 ? attempt : aur_hash2(attempt, 0) % 20000);
+        const uint64_t seed = attempt % 3 == 0 ? 0 : aur_hash2(attempt, 1);
         uint64_t smallest = 0;
         uint64_t word = seed;
         for (uint64_t i = 1; i < count; ++i) {
@@ -73,23 +74,23 @@ static void golden_order_begins_with_the_smallest(void **state) {
 static void ascents_agree(void **state) {
     (void)state;
     enum { COUNT = 3000 };
-    for (uint64_t trial = 0; trial < 600; ++trial) {
+    for (uint64_t attempt = 0; attempt < 600; ++attempt) {
         const uint64_t count =
-            trial < 300 ? trial + 1 : (UINT64_C(1) << 32) - aur_hash2(trial, 0) % 100000000;
-        const uint64_t seed = aur_hash2(trial, 1);
+            attempt < 300 ? attempt + 1 : (UINT64_C(1) << 32) - aur_hash2(attempt, 0) % 100000000;
+        const uint64_t seed = aur_hash2(attempt, 1);
         const aur_golden_order order = aur_golden_order_of(seed, count);
         double values[3][COUNT];
-        size_t made[3];
+        size_t written[3];
         for (size_t f = 0; f < form_count; ++f) {
             aur_ascent ascent = {seed, count, order.increment, order.increment + order.decrement,
                                  order.first};
-            made[f] = forms[f]->ascent(&ascent, COUNT / 2, values[f]);
-            made[f] += forms[f]->ascent(&ascent, COUNT - made[f], values[f] + made[f]);
-            assert_true(made[f] > COUNT - 2 * AUR_RUN_SLACK);
-            const size_t same = made[f] < made[0] ? made[f] : made[0];
+            written[f] = forms[f]->ascent(&ascent, COUNT / 2, values[f]);
+            written[f] += forms[f]->ascent(&ascent, COUNT - written[f], values[f] + written[f]);
+            assert_true(written[f] > COUNT - 2 * AUR_RUN_SLACK);
+            const size_t same = written[f] < written[0] ? written[f] : written[0];
             assert_memory_equal(values[f], values[0], same * sizeof(double));
         }
-        for (size_t i = 1; i < count && i < made[0]; ++i)
+        for (size_t i = 1; i < count && i < written[0]; ++i)
             assert_true(values[0][i] > values[0][i - 1]);
     }
 }

@@ -78,19 +78,19 @@ static void sobol_has_all_published_dimensions(void **state) {
     static const struct {
         size_t dimension;
         double values[3];
-    } known[] = {{1024, {0x1p-2, 0x1.e8p-2, 0x1.2p-5}},
-                 {3000, {0x1.8p-1, 0x1.88p-2, 0x1.fcp-2}},
-                 {13425, {0x1p-2, 0x1.9cp-1, 0x1.a4p-2}},
-                 {21200, {0x1.8p-1, 0x1.34p-1, 0x1.44p-2}}};
+    } published[] = {{1024, {0x1p-2, 0x1.e8p-2, 0x1.2p-5}},
+                     {3000, {0x1.8p-1, 0x1.88p-2, 0x1.fcp-2}},
+                     {13425, {0x1p-2, 0x1.9cp-1, 0x1.a4p-2}},
+                     {21200, {0x1.8p-1, 0x1.34p-1, 0x1.44p-2}}};
     aur_pointset *const set = make_set(
         "sobol",
         (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 256, .dimension = 21201});
     double values[256];
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
-        fill_dimension(set, known[k].dimension, 256, values);
-        assert_near(values[3], known[k].values[0], 0.0);
-        assert_near(values[77], known[k].values[1], 0.0);
-        assert_near(values[255], known[k].values[2], 0.0);
+    for (size_t k = 0; k < sizeof published / sizeof published[0]; ++k) {
+        fill_dimension(set, published[k].dimension, 256, values);
+        assert_near(values[3], published[k].values[0], 0.0);
+        assert_near(values[77], published[k].values[1], 0.0);
+        assert_near(values[255], published[k].values[2], 0.0);
     }
     aur_pointset_destroy(set);
 }
@@ -347,19 +347,19 @@ static void rotate_shifts_the_azimuth(void **state) {
 static void options_can_grow(void **state) {
     (void)state;
     struct {
-        aur_pointset_options known;
+        aur_pointset_options current;
         int option;
     } newer;
     memset(&newer, 0, sizeof newer);
-    newer.known.size = sizeof(aur_pointset_options);
-    aur_pointset_options_init(4, &newer.known, NULL);
-    newer.known.size = sizeof newer;
+    newer.current.size = sizeof(aur_pointset_options);
+    aur_pointset_options_init(4, &newer.current, NULL);
+    newer.current.size = sizeof newer;
     aur_pointset *set = NULL;
-    assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_OK);
+    assert_int_equal(aur_pointset_create("sobol", &newer.current, &set, NULL), AUR_OK);
     assert_int_equal(aur_pointset_size(set), 4);
     aur_pointset_destroy(set);
     newer.option = 1;
-    assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_pointset_create("sobol", &newer.current, &set, NULL), AUR_ERROR_UNSUPPORTED);
     const aur_pointset_options unset = {.count = 4};
     assert_int_equal(aur_pointset_create("sobol", &unset, &set, NULL), AUR_ERROR_ARGUMENT);
     assert_null(set);

@@ -38,11 +38,11 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* From -reach to `end`, cut at the middle of the lobe and at `place`. */
-static void make_angles(const end_rule *rule, double end, double place, double exponent, angle_nodes *nodes) {
+/* From -reach to `end`, cut at the middle of the lobe and at `peak`. */
+static void make_angles(const end_rule *rule, double end, double peak, double exponent, angle_nodes *nodes) {
     const double reach = acos(pow(1e-17, 1.0 / exponent));
     const double last = fmin(end, reach);
-    double cuts[CUTS] = {-reach, fmin(0.0, last), fmax(-reach, fmin(place, last)), last};
+    double cuts[CUTS] = {-reach, fmin(0.0, last), fmax(-reach, fmin(peak, last)), last};
     qsort(cuts, CUTS, sizeof *cuts, ascending);
     nodes->count = 0;
     for (int piece = 0; piece + 1 < CUTS; ++piece) {
@@ -51,9 +51,9 @@ static void make_angles(const end_rule *rule, double end, double place, double e
             const size_t at = nodes->count++;
             const double start = length * rule->from_start[i], rest = length * rule->from_end[i];
             nodes->angle[at] = start < rest ? cuts[piece] + start : cuts[piece + 1] - rest;
-            nodes->away[at] = cuts[piece] == place       ? start
-                              : cuts[piece + 1] == place ? -rest
-                                                         : nodes->angle[at] - place;
+            nodes->away[at] = cuts[piece] == peak       ? start
+                              : cuts[piece + 1] == peak ? -rest
+                                                        : nodes->angle[at] - peak;
             nodes->weight[at] = length * rule->weight[i] * pow(fmax(0.0, cos(nodes->angle[at])), exponent);
         }
     }
@@ -61,10 +61,10 @@ static void make_angles(const end_rule *rule, double end, double place, double e
 
 /* The integral over the visible part of the lobe, unnormalised, in the lobe's own angles: psi towards the
  * horizon at `horizon`, beta across; of the kernel at (place, aside), and of 1. */
-static double integrate(const end_rule *rule, double exponent, double smoothness, double horizon,
-                        double place, double aside, double *mass) {
+static double integrate(const end_rule *rule, double exponent, double smoothness, double horizon, double peak,
+                        double aside, double *mass) {
     angle_nodes psi, beta;
-    make_angles(rule, horizon, place, exponent, &psi);
+    make_angles(rule, horizon, peak, exponent, &psi);
     make_angles(rule, 0.5 * PI, aside, exponent + 1.0, &beta);
     const double top = pow(2.0, 2.0 * smoothness - 1.0) / smoothness;
     double sum = 0.0;

@@ -46,9 +46,9 @@ static void test_mis(void **state) {
             const double along = fmax(0.0, u[0] * glossy.axis[0] + u[2] * glossy.axis[2]);
             const double p = 21.0 / (2.0 * PI) * pow(along, 20.0);
             const double drawn[2] = {A * fmax(0.0, u[2]) / PI, B * p};
-            const double own = drawn[i < A ? 0 : 1];
+            const double density = drawn[i < A ? 0 : 1];
             const double expected =
-                power ? own * p / (drawn[0] * drawn[0] + drawn[1] * drawn[1]) : p / (drawn[0] + drawn[1]);
+                power ? density * p / (drawn[0] * drawn[0] + drawn[1] * drawn[1]) : p / (drawn[0] + drawn[1]);
             assert_near(weights[i], expected, 1e-12 + 1e-9 * expected);
             sum += weights[i];
         }

@@ -52,15 +52,16 @@ static void test_interpolation(void **state) {
     aur_weight_table *const table = build(&options, grid_of(16, 12, 2), 2);
     double sums[3] = {0.0}, worst = 0.0;
     enum { TRIALS = 24 };
-    for (uint64_t trial = 0; trial < TRIALS; ++trial) {
-        const uint64_t hash = aur_hash2(7, trial);
+    for (uint64_t attempt = 0; attempt < TRIALS; ++attempt) {
+        const uint64_t hash = aur_hash2(7, attempt);
         const double radians = 0.5 * PI * aur_unit_double(hash),
                      alpha = pow(0.05, aur_unit_double(aur_mix64(hash)));
         double xyz[3 * GLOSSY], weights[3][GLOSSY], errors[3], sum = 0.0;
         float found[GLOSSY];
         assert_int_equal(
-            aur_weight_table_points(table, radians, alpha, trial % 2, false, 3 * GLOSSY, xyz, NULL), AUR_OK);
-        assert_int_equal(aur_weight_table_look_up(table, 1, trial % 2, radians, alpha, GLOSSY, found, NULL),
+            aur_weight_table_points(table, radians, alpha, attempt % 2, false, 3 * GLOSSY, xyz, NULL),
+            AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(table, 1, attempt % 2, radians, alpha, GLOSSY, found, NULL),
                          AUR_OK);
         aur_potential *const potential = potential_of(alpha, radians);
         const aur_potential *const one = potential;

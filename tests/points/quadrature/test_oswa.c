@@ -316,22 +316,23 @@ static void test_file(void **state) {
         size_t lobe, rotation, capacity;
         double radians;
         aur_result result;
-    } asked[] = {
+    } requests[] = {
         {1, 2, 96, 0.5 * PI, AUR_OK},         {2, 2, 96, 0.7, AUR_ERROR_ARGUMENT},
         {1, 3, 96, 0.7, AUR_ERROR_ARGUMENT},  {1, SIZE_MAX, 96, 0.7, AUR_ERROR_ARGUMENT},
         {1, 2, 95, 0.7, AUR_ERROR_CAPACITY},  {1, 2, 96, 9.0, AUR_ERROR_ARGUMENT},
         {1, 2, 96, -0.1, AUR_ERROR_ARGUMENT}, {1, 2, 96, (double)NAN, AUR_ERROR_ARGUMENT},
     };
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i) {
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; ++i) {
         float found[96];
         double xyz[3 * 96];
-        assert_int_equal(aur_weight_table_look_up(loaded, asked[i].lobe, asked[i].rotation, asked[i].radians,
-                                                  0.0, asked[i].capacity, found, &error),
-                         asked[i].result);
-        if (asked[i].lobe < 2)
-            assert_int_equal(aur_weight_table_points(loaded, asked[i].radians, 0.0, asked[i].rotation, false,
-                                                     3 * asked[i].capacity, xyz, &error),
-                             asked[i].result);
+        assert_int_equal(aur_weight_table_look_up(loaded, requests[i].lobe, requests[i].rotation,
+                                                  requests[i].radians, 0.0, requests[i].capacity, found,
+                                                  &error),
+                         requests[i].result);
+        if (requests[i].lobe < 2)
+            assert_int_equal(aur_weight_table_points(loaded, requests[i].radians, 0.0, requests[i].rotation,
+                                                     false, 3 * requests[i].capacity, xyz, &error),
+                             requests[i].result);
     }
     assert_true(aur_weight_table_mass(loaded, 9.0, 0.0) == aur_weight_table_mass(loaded, 0.5 * PI, 0.0));
     aur_weight_table_destroy(loaded);

@@ -224,12 +224,12 @@ static void estimated_roots_are_within_their_error(void **state) {
     const aur_points_view points = aur_points_view_of(AUR_DOMAIN_SPHERE, COUNT, 3, coordinates);
     aur_axes axes;
     assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
-    for (uint64_t trial = 0; trial < 20000; ++trial) {
-        const double length = ldexp(1.0 + aur_unit_double(aur_hash2(5, trial)), -(int)(trial % 60));
+    for (uint64_t attempt = 0; attempt < 20000; ++attempt) {
+        const double length = ldexp(1.0 + aur_unit_double(aur_hash2(5, attempt)), -(int)(attempt % 60));
         for (size_t row = ROW; row < COUNT; ++row)
             axes.x[row] = length;
         for (size_t k = 0; k < here; ++k) {
-            const aur_pair_tile column = {ROW, COUNT, trial % COLUMNS, trial % COLUMNS + 1};
+            const aur_pair_tile column = {ROW, COUNT, attempt % COLUMNS, attempt % COLUMNS + 1};
             assert_relative(kernels[k]->fast(&axes, column, 0.0).high, 4.0 * length, 4.5e-16);
         }
     }
@@ -245,8 +245,9 @@ static void fast_tiles_agree_with_exact_ones(void **state) {
     memcpy(points.coordinates, points.coordinates + 3 * 300, 3 * 20 * sizeof(double));
     aur_axes axes;
     assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
-    for (uint64_t trial = 0; trial < 200; ++trial) {
-        const aur_pair_tile tile = {300, 301 + aur_hash2(1, trial) % 300, 0, 1 + aur_hash2(2, trial) % 300};
+    for (uint64_t attempt = 0; attempt < 200; ++attempt) {
+        const aur_pair_tile tile = {300, 301 + aur_hash2(1, attempt) % 300, 0,
+                                    1 + aur_hash2(2, attempt) % 300};
         const double exact = aur_distance_portable.exact(&axes, tile, 0.0).high;
         for (size_t k = 0; k < here; ++k)
             assert_near(kernels[k]->fast(&axes, tile, 0.0).high, exact, 2e-14 * exact);

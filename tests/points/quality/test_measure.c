@@ -114,17 +114,18 @@ static void options_can_grow(void **state) {
     (void)state;
     own_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     struct {
-        aur_measure_options known;
+        aur_measure_options current;
         int option;
     } newer;
     memset(&newer, 0, sizeof newer);
-    newer.known.size = sizeof newer;
+    newer.current.size = sizeof newer;
     double value = 0.0;
     assert_int_equal(
-        aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.known, &value, NULL), AUR_OK);
+        aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.current, &value, NULL),
+        AUR_OK);
     newer.option = 1;
     assert_int_equal(
-        aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.known, &value, NULL),
+        aur_measure("energy", (const aur_points_view[]){seen(&points)}, &newer.current, &value, NULL),
         AUR_ERROR_UNSUPPORTED);
     const aur_measure_options unset = {.size = 0};
     assert_int_equal(aur_measure("energy", (const aur_points_view[]){seen(&points)}, &unset, &value, NULL),

@@ -39,14 +39,14 @@ static void groups_have_the_known_covering(void **state) {
     static const struct {
         aur_symmetry symmetry;
         double degrees, nearest;
-    } known[] = {{AUR_SYMMETRY_432, 62.799, 90}, {AUR_SYMMETRY_622, 93.841, 60},
-                 {AUR_SYMMETRY_422, 98.421, 90}, {AUR_SYMMETRY_222, 120.0, 180.0},
-                 {AUR_SYMMETRY_23, 90.0, 120},   {AUR_SYMMETRY_32, 104.478, 120}};
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
+    } published[] = {{AUR_SYMMETRY_432, 62.799, 90}, {AUR_SYMMETRY_622, 93.841, 60},
+                     {AUR_SYMMETRY_422, 98.421, 90}, {AUR_SYMMETRY_222, 120.0, 180.0},
+                     {AUR_SYMMETRY_23, 90.0, 120},   {AUR_SYMMETRY_32, 104.478, 120}};
+    for (size_t k = 0; k < sizeof published / sizeof published[0]; ++k) {
         own_points group = rotations(AUR_SYMMETRY_ORDER_MAX);
-        group.count = aur_symmetry_group(known[k].symmetry, group.coordinates);
-        assert_near(measured("covering", &group) * 180.0 / AUR_PI, known[k].degrees, 1e-3);
-        assert_near(measured("min-angle", &group) * 180.0 / AUR_PI, known[k].nearest, 1e-6);
+        group.count = aur_symmetry_group(published[k].symmetry, group.coordinates);
+        assert_near(measured("covering", &group) * 180.0 / AUR_PI, published[k].degrees, 1e-3);
+        assert_near(measured("min-angle", &group) * 180.0 / AUR_PI, published[k].nearest, 1e-6);
         release_points(&group);
     }
 }

@@ -344,17 +344,17 @@ static void check_corners(const own_points *points, aur_domain domain, size_t th
         for (size_t k = 0; k < sides; ++k) {
             const double *const corner = row + 4 * k + 1, *const next = row + 4 * ((k + 1) % sides) + 1;
             assert_true(row[4 * k] == (double)(i + 1));
-            const double own = dot(corner, x);
+            const double to_center = dot(corner, x);
             size_t as_near = domain == AUR_DOMAIN_HEMISPHERE && fabs(corner[2]) < corner_error;
             for (size_t j = 0; j < points->count; ++j) {
                 const double other = dot(corner, points->coordinates + 3 * j);
                 const double near = domain == AUR_DOMAIN_AXES ? fabs(other) : other;
-                assert_true(near < own + corner_error);
-                as_near += j != i && near > own - corner_error;
+                assert_true(near < to_center + corner_error);
+                as_near += j != i && near > to_center - corner_error;
             }
             assert_true(as_near >= 2);
             assert_true(turn(x, corner, next) > -corner_error);
-            area += 2.0 * atan2(turn(x, corner, next), 1.0 + own + dot(next, x) + dot(corner, next));
+            area += 2.0 * atan2(turn(x, corner, next), 1.0 + to_center + dot(next, x) + dot(corner, next));
         }
         assert_relative(area, figures[4 * i + 1] * mean, corner_error);
         row += 4 * sides;

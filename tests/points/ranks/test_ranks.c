@@ -51,8 +51,8 @@ static bool look(void *state, size_t *from, size_t *size) {
 
 static void take(void *state, size_t from, size_t size, void *data) {
     const size_t rank = *(const size_t *)state;
-    size_t told;
-    move(ends[rank][from], sizeof told, &told, false);
+    size_t received;
+    move(ends[rank][from], sizeof received, &received, false);
     move(ends[rank][from], size, data, false);
 }
 

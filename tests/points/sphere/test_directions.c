@@ -303,15 +303,15 @@ static void refuses_what_is_wrong(void **state) {
 static void options_can_grow(void **state) {
     (void)state;
     struct {
-        aur_directions_options known;
+        aur_directions_options current;
         int option;
     } newer;
     memset(&newer, 0, sizeof newer);
-    newer.known.size = sizeof(aur_directions_options);
-    aur_directions_options_init(4, AUR_DOMAIN_SPHERE, &newer.known, NULL);
-    newer.known.size = sizeof newer;
+    newer.current.size = sizeof(aur_directions_options);
+    aur_directions_options_init(4, AUR_DOMAIN_SPHERE, &newer.current, NULL);
+    newer.current.size = sizeof newer;
     aur_points_request request = {.size = sizeof request};
-    aur_points_request_init(&newer.known, &request, NULL);
+    aur_points_request_init(&newer.current, &request, NULL);
     aur_points *points;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_get_view(points)->count, 4);

@@ -59,17 +59,17 @@ static double exact_turns(uint64_t j) {
 
 static void phases_stay_golden_to_a_thousand_million(void **state) {
     (void)state;
-    static const uint64_t places[] = {0, 1, 2, 75024, 999999, 99999999, 123456789, 1000000000 - 64};
+    static const uint64_t starts[] = {0, 1, 2, 75024, 999999, 99999999, 123456789, 1000000000 - 64};
     const uint64_t count = 1000000000;
     aur_directions *directions;
     aur_directions_options options = sphere;
     options.count = count;
     assert_int_equal(aur_directions_create("spherical-fibonacci", &options, &directions, NULL), AUR_OK);
-    for (size_t p = 0; p < sizeof places / sizeof places[0]; ++p) {
+    for (size_t p = 0; p < sizeof starts / sizeof starts[0]; ++p) {
         double xyz[3 * 64];
-        assert_int_equal(aur_directions_points(directions, places[p], 64, 3 * 64, xyz, NULL, NULL), AUR_OK);
+        assert_int_equal(aur_directions_points(directions, starts[p], 64, 3 * 64, xyz, NULL, NULL), AUR_OK);
         for (size_t i = 0; i < 64; ++i) {
-            const uint64_t j = places[p] + i;
+            const uint64_t j = starts[p] + i;
             const double angle = 2.0 * AUR_PI * exact_turns(j);
             const double z = 1.0 - (2.0 * (double)j + 1.0) / (double)count;
             const double radius = hypot(xyz[3 * i], xyz[3 * i + 1]);
@@ -172,9 +172,9 @@ static void parts_do_not_depend_on_the_calls(void **state) {
     aur_directions_options options = sphere;
     options.count = COUNT;
     assert_int_equal(aur_directions_create("spherical-fibonacci", &options, &directions, NULL), AUR_OK);
-    for (uint64_t trial = 0; trial < 200; ++trial) {
-        const uint64_t first = aur_hash2(1, trial) % COUNT;
-        const size_t count = (size_t)(aur_hash2(2, trial) % (COUNT - first + 1));
+    for (uint64_t attempt = 0; attempt < 200; ++attempt) {
+        const uint64_t first = aur_hash2(1, attempt) % COUNT;
+        const size_t count = (size_t)(aur_hash2(2, attempt) % (COUNT - first + 1));
         double part[3 * COUNT];
         assert_int_equal(aur_directions_points(directions, first, count, 3 * count, part, NULL, NULL),
                          AUR_OK);
@@ -196,18 +196,18 @@ static void kernels_agree_bit_for_bit(void **state) {
     double *const expected = malloc((3 * MOST + 8) * sizeof *expected);
     double *const actual = malloc((3 * MOST + 8) * sizeof *actual);
     assert_true(expected != NULL && actual != NULL);
-    for (uint64_t trial = 0; trial < 200; ++trial) {
-        const uint64_t random = aur_hash2(91, trial);
-        const size_t count = random % (trial % 2 == 0 ? 50 : MOST);
-        const bool stream = trial % 3 == 0;
-        const uint64_t first = random >> (16 + trial % 40);
+    for (uint64_t attempt = 0; attempt < 200; ++attempt) {
+        const uint64_t random = aur_hash2(91, attempt);
+        const size_t count = random % (attempt % 2 == 0 ? 50 : MOST);
+        const bool stream = attempt % 3 == 0;
+        const uint64_t first = random >> (16 + attempt % 40);
         const aur_fibonacci set = {
             .step = 1.9 / (double)(first + count + 1), .offset = 0.25, .phase = random};
         aur_fibonacci_points_portable(&set, first, count, false, expected);
         for (size_t k = 0; k < 2; ++k) {
             if (aur_isa_available() < needs[k])
                 continue;
-            double *const to = actual + trial % 8;
+            double *const to = actual + attempt % 8;
             to[3 * count] = 7.0;
             kernels[k](&set, first, count, stream, to);
             assert_memory_equal(to, expected, 3 * count * sizeof *to);

@@ -34,7 +34,7 @@ static void each_point_is_the_farthest(void **state) {
         double *const candidates = points_of("spherical-fibonacci", CANDIDATES, domain);
         double *const xyz = points_of("greedy", N, domain);
         for (size_t n = 1; n < N; ++n) {
-            double own = 0.0, most = 0.0;
+            double chosen = 0.0, most = 0.0;
             for (size_t c = 0; c <= CANDIDATES; ++c) {
                 const double *const x = c < CANDIDATES ? candidates + 3 * c : xyz + 3 * n;
                 double sum = 0.0;
@@ -43,9 +43,9 @@ static void each_point_is_the_farthest(void **state) {
                 if (c < CANDIDATES)
                     most = fmax(most, sum);
                 else
-                    own = sum;
+                    chosen = sum;
             }
-            assert_near(own, most, 1e-6); /* distances of nearly opposite ends have half the digits */
+            assert_near(chosen, most, 1e-6); /* distances of nearly opposite ends have half the digits */
         }
         free(candidates);
         free(xyz);

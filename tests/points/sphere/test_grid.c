@@ -42,8 +42,8 @@ static void shifts_of_each_level_are_as_good_as_fibonacci(void **state) {
     static const double fibonacci[] = {2.83981e-2, 9.97857e-3, 3.52175e-3};
     size_t count = 64;
     for (size_t l = 0; l < 3; ++l, count *= 4) {
-        const double own = discrepancy("base=64,levels=3,shift=per-level", count);
-        assert_true(own / fibonacci[l] > 0.99 && own / fibonacci[l] < 1.01);
+        const double measured = discrepancy("base=64,levels=3,shift=per-level", count);
+        assert_true(measured / fibonacci[l] > 0.99 && measured / fibonacci[l] < 1.01);
         const double final = discrepancy("base=64,levels=3", count);
         assert_true(final / fibonacci[l] > 1.045 && final / fibonacci[l] < 1.09);
     }

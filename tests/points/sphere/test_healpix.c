@@ -15,16 +15,16 @@ static void pixels_of_side_two_stand_where_they_should(void **state) {
     static const struct {
         size_t first;
         double z, azimuth;
-    } known[] = {{0, 11.0 / 12.0, 0.25},  {4, 2.0 / 3.0, 0.125},    {5, 2.0 / 3.0, 0.375},
-                 {12, 1.0 / 3.0, 0.0},    {20, 0.0, 0.125},         {28, -1.0 / 3.0, 0.0},
-                 {36, -2.0 / 3.0, 0.125}, {44, -11.0 / 12.0, 0.25}, {47, -11.0 / 12.0, 1.75}};
+    } expected[] = {{0, 11.0 / 12.0, 0.25},  {4, 2.0 / 3.0, 0.125},    {5, 2.0 / 3.0, 0.375},
+                    {12, 1.0 / 3.0, 0.0},    {20, 0.0, 0.125},         {28, -1.0 / 3.0, 0.0},
+                    {36, -2.0 / 3.0, 0.125}, {44, -11.0 / 12.0, 0.25}, {47, -11.0 / 12.0, 1.75}};
     double *const xyz = pixels(2);
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
-        const double *const x = xyz + 3 * known[k].first;
+    for (size_t k = 0; k < sizeof expected / sizeof expected[0]; ++k) {
+        const double *const x = xyz + 3 * expected[k].first;
         double azimuth = atan2(x[1], x[0]) / AUR_PI;
         azimuth += azimuth < -1e-12 ? 2.0 : 0.0;
-        assert_near(x[2], known[k].z, 1e-15);
-        assert_near(azimuth, known[k].azimuth, 1e-15);
+        assert_near(x[2], expected[k].z, 1e-15);
+        assert_near(azimuth, expected[k].azimuth, 1e-15);
     }
     free(xyz);
 }
@@ -60,30 +60,31 @@ static void directions_have_their_pixels(void **state) {
         uint64_t side;
         double direction[3];
         uint64_t ring, nested;
-    } known[] = {{1, {0.1, 0.2, 0.3}, 0, 0},
-                 {4, {0.0, 0.0, 1.0}, 0, 15},
-                 {4, {0.0, 0.0, -1.0}, 188, 128},
-                 {4, {1.0, 0.0, 0.0}, 88, 70},
-                 {4, {-0.3, -0.5, 0.1}, 83, 123},
-                 {64, {0.1, -0.2, -0.9}, 48454, 45235},
-                 {1024, {0.3, -0.2, 0.9}, 452022, 4043388},
-                 {1024, {-0.6, 0.7, -0.2}, 7622094, 10454255},
-                 {16777216, {0.123, 0.456, 0.789}, 239780591234526, 138701662095607},
-                 {16777216, {-0.5, 0.1, -0.2}, 2305530657756251, 1728197228684217}};
+    } expected[] = {{1, {0.1, 0.2, 0.3}, 0, 0},
+                    {4, {0.0, 0.0, 1.0}, 0, 15},
+                    {4, {0.0, 0.0, -1.0}, 188, 128},
+                    {4, {1.0, 0.0, 0.0}, 88, 70},
+                    {4, {-0.3, -0.5, 0.1}, 83, 123},
+                    {64, {0.1, -0.2, -0.9}, 48454, 45235},
+                    {1024, {0.3, -0.2, 0.9}, 452022, 4043388},
+                    {1024, {-0.6, 0.7, -0.2}, 7622094, 10454255},
+                    {16777216, {0.123, 0.456, 0.789}, 239780591234526, 138701662095607},
+                    {16777216, {-0.5, 0.1, -0.2}, 2305530657756251, 1728197228684217}};
     uint64_t pixel;
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k)
+    for (size_t k = 0; k < sizeof expected / sizeof expected[0]; ++k)
         for (int nested = 0; nested < 2; ++nested) {
             assert_int_equal(
-                aur_healpix_pixels(known[k].side, nested != 0, 1, known[k].direction, 1, &pixel, NULL),
+                aur_healpix_pixels(expected[k].side, nested != 0, 1, expected[k].direction, 1, &pixel, NULL),
                 AUR_OK);
-            assert_int_equal(pixel, nested != 0 ? known[k].nested : known[k].ring);
+            assert_int_equal(pixel, nested != 0 ? expected[k].nested : expected[k].ring);
         }
     const double none[3] = {0.0};
-    assert_int_equal(aur_healpix_pixels(3, true, 1, known[0].direction, 1, &pixel, NULL), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_healpix_pixels(0, false, 1, known[0].direction, 1, &pixel, NULL),
+    assert_int_equal(aur_healpix_pixels(3, true, 1, expected[0].direction, 1, &pixel, NULL),
+                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_healpix_pixels(0, false, 1, expected[0].direction, 1, &pixel, NULL),
                      AUR_ERROR_ARGUMENT);
     assert_int_equal(aur_healpix_pixels(4, false, 1, none, 1, &pixel, NULL), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_healpix_pixels(4, false, 1, known[0].direction, 0, &pixel, NULL),
+    assert_int_equal(aur_healpix_pixels(4, false, 1, expected[0].direction, 0, &pixel, NULL),
                      AUR_ERROR_CAPACITY);
 }
 

@@ -8,12 +8,12 @@ static const aur_map maps[] = {AUR_MAP_LAMBERT, AUR_MAP_CONCENTRIC, AUR_MAP_AZIM
 
 /* Corners, edges, diagonals and a grid of the square. */
 static size_t squares(double points[][2]) {
-    static const double places[] = {0.0, 1e-12, 0.125, 0.25, 0.3, 0.5, 0.61, 0.75, 0.999, 1.0 - 1e-12};
+    static const double coordinates[] = {0.0, 1e-12, 0.125, 0.25, 0.3, 0.5, 0.61, 0.75, 0.999, 1.0 - 1e-12};
     size_t count = 0;
     for (size_t i = 0; i < 10; ++i) {
         for (size_t k = 0; k < 10; ++k) {
-            points[count][0] = places[i];
-            points[count++][1] = places[k];
+            points[count][0] = coordinates[i];
+            points[count++][1] = coordinates[k];
         }
     }
     return count;
@@ -124,9 +124,9 @@ static void area_is_preserved(void **state) {
     (void)state;
     enum { SIDE = 256 };
     for (size_t m = 0; m < 4; ++m) {
-        for (uint64_t trial = 0; trial < 4; ++trial) {
+        for (uint64_t attempt = 0; attempt < 4; ++attempt) {
             double axis[3];
-            check_random_direction(7, trial, axis);
+            check_random_direction(7, attempt, axis);
             double inside = 0.0;
             for (size_t i = 0; i < SIDE * SIDE; ++i) {
                 const double square[2] = {((double)(i % SIDE) + 0.5) / SIDE,

@@ -58,11 +58,11 @@ static void bounds(void **state) {
         assert_true(found > lowest && found < hadamard + 1e-12);
         assert_true(degree > 1 || found > hadamard - 1e-12);
         /* Moves of a thousandth lose by their square, and never gain. */
-        for (size_t trial = 0; trial < 20; ++trial) {
+        for (size_t attempt = 0; attempt < 20; ++attempt) {
             double moved[3 * MOST];
             for (size_t i = 0; i < n; ++i) {
                 double u[3], square = 0.0;
-                check_random_direction(trial, i, u);
+                check_random_direction(attempt, i, u);
                 for (size_t d = 0; d < 3; ++d) {
                     moved[3 * i + d] = xyz[3 * i + d] + 1e-3 * u[d];
                     square += moved[3 * i + d] * moved[3 * i + d];

@@ -7,7 +7,7 @@
 #include "points/sphere/map.h"
 #include "points/sphere/rotations/hopf.h"
 
-static double *made(const char *set, aur_rotations_options options) {
+static double *generate(const char *set, aur_rotations_options options) {
     aur_rotations *rotations;
     aur_error error = {0};
     if (aur_rotations_create(set, &options, &rotations, &error) != AUR_OK)
@@ -22,7 +22,7 @@ static double *made(const char *set, aur_rotations_options options) {
 static double *plain(const char *set, size_t count) {
     aur_rotations_options options = {.size = sizeof options};
     aur_rotations_options_init(count, &options, NULL);
-    return made(set, options);
+    return generate(set, options);
 }
 
 static void super_fibonacci_is_the_published_formula(void **state) {
@@ -200,12 +200,12 @@ static void scrambling_turns_all_alike_or_moves_the_cube(void **state) {
     double *const before = plain("sobol", 64);
     options.scramble = AUR_SCRAMBLE_ROTATE3D;
     options.seed = 4;
-    double *const turned = made("sobol", options);
+    double *const turned = generate("sobol", options);
     for (size_t i = 1; i < 64; ++i)
         assert_near(aur_dot4(turned, turned + 4 * i), aur_dot4(before, before + 4 * i), 1e-15);
     assert_true(fabs(aur_dot4(turned, before)) < 0.999);
     options.scramble = AUR_SCRAMBLE_OWEN;
-    double *const scrambled = made("sobol", options);
+    double *const scrambled = generate("sobol", options);
     assert_true(fabs(aur_dot4(scrambled, scrambled + 4) - aur_dot4(before, before + 4)) > 1e-6);
     free(before);
     free(turned);

@@ -15,14 +15,14 @@ static aur_result copy_set(void *user, uint64_t count, size_t dimension, double 
     aur_directions_options_init(count, domain, &options, NULL);
     aur_points_request request = {.size = sizeof request};
     aur_points_request_init(&options, &request, NULL);
-    aur_points *made;
-    const aur_result result = aur_points_generate(user, &request, &made, error);
+    aur_points *generated;
+    const aur_result result = aur_points_generate(user, &request, &generated, error);
     if (result != AUR_OK)
         return result;
-    memcpy(points, aur_points_get_view(made)->coordinates, count * dimension * sizeof *points);
+    memcpy(points, aur_points_get_view(generated)->coordinates, count * dimension * sizeof *points);
     for (size_t i = 0; weights != NULL && i < count; ++i)
         weights[i] = 2.0 * ((double)i + 0.5) / ((double)count * (double)count);
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     return AUR_OK;
 }
 

@@ -55,19 +55,19 @@ void *oidnNewFilter(void *of, const char *type) {
 void oidnSetSharedFilterImage(void *of, const char *name, void *data, int format, size_t width, size_t height,
                               size_t offset, size_t pixel_stride, size_t row_stride) {
     static const char *const names[COUNT] = {"color", "albedo", "normal", "output"};
-    struct stub_filter *const own = of;
+    struct stub_filter *const self = of;
     for (size_t i = 0; i < COUNT; ++i) {
         if (strcmp(names[i], name) != 0)
             continue;
-        own->images[i].data = data;
-        own->images[i].offset = offset;
-        own->images[i].pixel_stride = pixel_stride;
-        own->images[i].row_stride = row_stride;
+        self->images[i].data = data;
+        self->images[i].offset = offset;
+        self->images[i].pixel_stride = pixel_stride;
+        self->images[i].row_stride = row_stride;
     }
-    if (format != 3 || (own->width != 0 && (own->width != width || own->height != height)))
+    if (format != 3 || (self->width != 0 && (self->width != width || self->height != height)))
         wrong = "a bad image";
-    own->width = width;
-    own->height = height;
+    self->width = width;
+    self->height = height;
 }
 
 void oidnSetFilterBool(void *of, const char *name, bool value) {

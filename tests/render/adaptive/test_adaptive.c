@@ -40,10 +40,10 @@ static aur_render_options small(size_t threads) {
 
 static aur_adaptive *adaptive(const fixture *f, const aur_render_options *render,
                               const aur_adaptive_options *target) {
-    aur_adaptive *made = NULL;
-    assert_int_equal(aur_adaptive_create(f->renderer, render, target, &made, NULL), AUR_OK);
-    assert_int_equal(aur_adaptive_run(made, NULL), AUR_OK);
-    return made;
+    aur_adaptive *created = NULL;
+    assert_int_equal(aur_adaptive_create(f->renderer, render, target, &created, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(created, NULL), AUR_OK);
+    return created;
 }
 
 /* By a renderer that has nothing prepared. */
@@ -194,11 +194,11 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
     options.progress = (aur_progress){keep_progress, record};
     fixture fresh = {.scene = f->scene}; /* a renderer that has no photon maps */
     assert_int_equal(aur_renderer_create(f->scene, &fresh.renderer, NULL), AUR_OK);
-    aur_adaptive *made = NULL;
-    assert_int_equal(aur_adaptive_create(fresh.renderer, &options, target, &made, NULL), AUR_OK);
-    record->adaptive = made;
-    assert_int_equal(aur_adaptive_run(made, NULL), AUR_OK);
-    const double all = (double)report_of(made).statistics.rays;
+    aur_adaptive *created = NULL;
+    assert_int_equal(aur_adaptive_create(fresh.renderer, &options, target, &created, NULL), AUR_OK);
+    record->adaptive = created;
+    assert_int_equal(aur_adaptive_run(created, NULL), AUR_OK);
+    const double all = (double)report_of(created).statistics.rays;
     double largest = 1.0;
     for (size_t i = 1; i < record->count; ++i) {
         const double since = record->rays[i] - record->rays[0], left = all - record->rays[i];
@@ -209,9 +209,9 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
         largest = fmax(largest, fmax(estimate / left, left / estimate));
     }
     print_message("%s, seed %llu: %zu shares of %zu reports, from %.2f of the rays on, off by up to %.2f\n",
-                  aur_adaptive_integrator(made), (unsigned long long)seed, record->count,
+                  aur_adaptive_integrator(created), (unsigned long long)seed, record->count,
                   record->count + record->unknown, record->count > 0 ? record->rays[0] / all : 1.0, largest);
-    aur_adaptive_destroy(made);
+    aur_adaptive_destroy(created);
     aur_renderer_destroy(fresh.renderer);
     return largest;
 }
@@ -272,26 +272,27 @@ static void test_rays_make_the_pattern(void **state) {
     fixture fresh, other;
     aur_adaptive *const a = create_fresh(&fresh, f, &chosen, &target), *const b =
                                                                            adaptive(f, &paths, &target);
-    const aur_adaptive_report own = report_of(a), path = report_of(b);
-    print_message("%g to %g by %s; path: %g to %g\n", own.error_low, own.error_high,
+    const aur_adaptive_report of_pattern = report_of(a), path = report_of(b);
+    print_message("%g to %g by %s; path: %g to %g\n", of_pattern.error_low, of_pattern.error_high,
                   aur_adaptive_integrator(a), path.error_low, path.error_high);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
-    assert_true(own.error_high < path.error_low);
+    assert_true(of_pattern.error_high < path.error_low);
     /* A twentieth is reserved for corrections, which may use less. */
-    assert_in_range(own.statistics.rays, target.rays * 19 / 20, target.rays * 3 / 2);
+    assert_in_range(of_pattern.statistics.rays, target.rays * 19 / 20, target.rays * 3 / 2);
     /* Maps that are there already change no decision, and are not traced. */
     aur_adaptive *const again = adaptive(&fresh, &chosen, &target);
     assert_same_image(a, again);
-    assert_true(report_of(again).candidate_rays == own.candidate_rays);
-    assert_true(report_of(again).statistics.rays < own.statistics.rays);
+    assert_true(report_of(again).candidate_rays == of_pattern.candidate_rays);
+    assert_true(report_of(again).statistics.rays < of_pattern.statistics.rays);
     aur_render_options named = chosen;
     named.integrator = aur_adaptive_integrator(a);
-    target.rays -= own.candidate_rays;
+    target.rays -= of_pattern.candidate_rays;
     aur_adaptive *const alone = create_fresh(&other, f, &named, &target);
     assert_same_image(a, alone);
     /* A twentieth is reserved for corrections of the bias. */
-    assert_true(fabs((double)report_of(alone).statistics.rays + (double)own.candidate_rays -
-                     (double)own.statistics.rays) < 0.05 * (double)(target.rays + own.candidate_rays));
+    assert_true(fabs((double)report_of(alone).statistics.rays + (double)of_pattern.candidate_rays -
+                     (double)of_pattern.statistics.rays) <
+                0.05 * (double)(target.rays + of_pattern.candidate_rays));
     aur_adaptive *const rendering[] = {a, b, again, alone};
     for (size_t i = 0; i < sizeof rendering / sizeof rendering[0]; ++i)
         aur_adaptive_destroy(rendering[i]);

@@ -10,7 +10,7 @@ typedef struct fixture {
     aur_scene *scene;
     aur_renderer *renderer;
     aur_adaptive *adaptive;
-    aur_image *halves[2], *made[2];
+    aur_image *halves[2], *processed[2];
 } fixture;
 
 static aur_render_options small(void) {
@@ -36,20 +36,20 @@ static aur_error_figures compare(fixture *f, float value, aur_error_measure meas
     assert_int_equal(aur_adaptive_run(f->adaptive, NULL), AUR_OK);
     for (size_t h = 0; h < 2; ++h) {
         assert_int_equal(aur_adaptive_develop_half(f->adaptive, h, &f->halves[h], NULL), AUR_OK);
-        assert_int_equal(aur_adaptive_develop_half(f->adaptive, h, &f->made[h], NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_develop_half(f->adaptive, h, &f->processed[h], NULL), AUR_OK);
         for (size_t i = 0; i < 2 * VALUES && value >= 0.0f; ++i)
-            aur_image_data(f->made[h])[i] = value;
+            aur_image_data(f->processed[h])[i] = value;
     }
     aur_error_figures figures;
-    const aur_image *const made[2] = {f->made[0], f->made[1]};
-    assert_int_equal(aur_adaptive_compare_halves(f->adaptive, made, &figures, NULL), AUR_OK);
+    const aur_image *const processed[2] = {f->processed[0], f->processed[1]};
+    assert_int_equal(aur_adaptive_compare_halves(f->adaptive, processed, &figures, NULL), AUR_OK);
     return figures;
 }
 
 static void end(fixture *f) {
     for (size_t h = 0; h < 2; ++h) {
         aur_image_destroy(f->halves[h]);
-        aur_image_destroy(f->made[h]);
+        aur_image_destroy(f->processed[h]);
     }
     aur_adaptive_destroy(f->adaptive);
     aur_renderer_destroy(f->renderer);
@@ -119,9 +119,9 @@ static void test_bad_input(void **state) {
     assert_int_equal(aur_adaptive_develop_half(f.adaptive, 2, &image, NULL), AUR_ERROR_ARGUMENT);
     assert_null(image);
     assert_int_equal(aur_image_create(SIDE, SIDE - 1, 3, &image, NULL), AUR_OK);
-    const aur_image *const made[2] = {f.made[0], image};
+    const aur_image *const processed[2] = {f.processed[0], image};
     aur_error_figures figures;
-    assert_int_equal(aur_adaptive_compare_halves(f.adaptive, made, &figures, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_adaptive_compare_halves(f.adaptive, processed, &figures, NULL), AUR_ERROR_ARGUMENT);
     aur_image_destroy(image);
     end(&f);
 }

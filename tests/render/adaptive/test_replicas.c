@@ -149,9 +149,9 @@ static void test_neighbours(void **state) {
     aur_replica_measure measure;
     aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
                          &(aur_pixel_measure){variances, f.spreads});
-    const double alike = correlation_of(&f.replicas);
-    assert_true(alike > 0.0);
-    assert_near(measure.deviations.alike, alike, 1e-9 * alike);
+    const double expected = correlation_of(&f.replicas);
+    assert_true(expected > 0.0);
+    assert_near(measure.deviations.neighbours, expected, 1e-9 * expected);
     end(&f);
 }
 

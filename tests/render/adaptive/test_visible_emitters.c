@@ -113,10 +113,10 @@ static void knows_its_integrator(void **state) {
         aur_error error = {0};
         if (aur_candidate_create(renderer, &options, 2, AUR_ERROR_MEASURE_MEAN, &candidate, &error) != AUR_OK)
             fail_msg("%s: %s", cases[i].integrator, error.message);
-        const aur_integrator *const made = aur_render_integrator(candidate.replicas.renders[0]);
+        const aur_integrator *const created = aur_render_integrator(candidate.replicas.renders[0]);
         assert_int_equal(candidate.pattern_samples, cases[i].pattern_samples);
-        assert_true((made->emitter_probes != NULL) == cases[i].probes);
-        assert_true(made->refines_emitter_edges == (i == 3)); /* `edges` is 128 by default */
+        assert_true((created->emitter_probes != NULL) == cases[i].probes);
+        assert_true(created->refines_emitter_edges == (i == 3)); /* `edges` is 128 by default */
         assert_non_null(candidate.visible.share);
         aur_candidate_release(&candidate);
     }

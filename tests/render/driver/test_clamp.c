@@ -103,16 +103,16 @@ static void refuses(void **state) {
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
-        aur_render *made = NULL;
+        aur_render *created = NULL;
         aur_error error = {0};
         aur_render_options options = {.size = sizeof options};
         assert_int_equal(aur_render_options_init(&options, NULL), AUR_OK);
         options.integrator = rows[i].integrator;
         options.samples_per_pixel = rows[i].samples;
         options.clamp = rows[i].clamp;
-        assert_true(aur_render_create(renderer, &options, &made, &error) != AUR_OK);
+        assert_true(aur_render_create(renderer, &options, &created, &error) != AUR_OK);
         assert_non_null(strstr(error.message, rows[i].message));
-        aur_render_destroy(made);
+        aur_render_destroy(created);
     }
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);

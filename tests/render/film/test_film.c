@@ -240,8 +240,8 @@ static void a_tile_is_stopped_within(void **state) {
         aur_render *const render = start(f->renderer, &options);
         calls = 3;
         assert_int_equal(aur_render_step(render, 0, NULL), AUR_ERROR_CANCELLED);
-        const size_t kept = aur_render_samples(render);
-        assert_true(i < 2 ? kept > 0 && kept < 512 : kept == 0);
+        const size_t samples = aur_render_samples(render);
+        assert_true(i < 2 ? samples > 0 && samples < 512 : samples == 0);
         calls = UINT64_MAX;
         assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
         aur_render_statistics counted = {.size = sizeof counted};

@@ -232,10 +232,10 @@ static void assert_is_of_parts(const fixture *f, const aur_render_options *optio
     enum { PARTS = 3 };
     aur_render *const all = start(f, options);
     for (size_t part = PARTS; part > 0; --part) {
-        aur_render_options own = *options;
-        own.shard = part;
-        own.shard_count = PARTS;
-        aur_render *const render = start(f, &own);
+        aur_render_options part_options = *options;
+        part_options.shard = part;
+        part_options.shard_count = PARTS;
+        aur_render *const render = start(f, &part_options);
         assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
         assert_int_equal(aur_render_merge(all, aur_render_film(render), NULL), AUR_OK);
         aur_render_destroy(render);
@@ -312,10 +312,10 @@ static void gathers_count_where_they_lie(void **state) {
         "<transform name='to_uv'><scale value='5'/></transform></texture></bsdf></shape><shape type='sphere'>"
         "<point name='center' x='0' y='0' z='.6'/><float name='radius' value='.6'/></shape></scene>";
     (void)state;
-    fixture made, *const f = &made;
-    assert_int_equal(aur_scene_load_memory("text.xml", sizeof text - 1, text, NULL, &made.scene, NULL),
+    fixture prepared, *const f = &prepared;
+    assert_int_equal(aur_scene_load_memory("text.xml", sizeof text - 1, text, NULL, &prepared.scene, NULL),
                      AUR_OK);
-    assert_int_equal(aur_renderer_create(made.scene, &made.renderer, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(prepared.scene, &prepared.renderer, NULL), AUR_OK);
     static const char *const tried[] = {"gaussian", "mitchell"};
     for (size_t k = 0; k < 2; ++k) {
         aur_image *images[4];
@@ -344,8 +344,8 @@ static void gathers_count_where_they_lie(void **state) {
         for (size_t i = 0; i < 4; ++i)
             aur_image_destroy(images[i]);
     }
-    aur_renderer_destroy(made.renderer);
-    aur_scene_destroy(made.scene);
+    aur_renderer_destroy(prepared.renderer);
+    aur_scene_destroy(prepared.scene);
 }
 
 /* Filters wider than the image, and images of one pixel. */

@@ -103,9 +103,9 @@ static inline hand_file hand_exr(size_t width, size_t height, size_t count, cons
     for (size_t y = 0; y < height; ++y)
         hand_integer(&file, 0, 8);
     for (size_t y = 0; y < height; ++y) {
-        const uint64_t place = file.size;
+        const uint64_t offset = file.size;
         for (size_t i = 0; i < 8; ++i)
-            file.bytes[table + 8 * y + i] = (unsigned char)(place >> (8 * i));
+            file.bytes[table + 8 * y + i] = (unsigned char)(offset >> (8 * i));
         hand_file line = {NULL, 0};
         hand_line(&line, width, y, count, channels);
         hand_integer(&file, y, 4);

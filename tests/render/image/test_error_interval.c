@@ -177,13 +177,13 @@ static void test_covariances_between_values_count(void **state) {
     (void)state;
     const aur_deviations alone = {.trace = 300.0, .spread = 40.0}, larger = {.trace = 300.0, .spread = 160.0};
     aur_deviations with = alone;
-    with.alike = 160.0;
+    with.neighbours = 160.0;
     const aur_error_interval narrow = aur_replica_interval(&alone, 4, VALUES, 0.95),
                              wide = aur_replica_interval(&larger, 4, VALUES, 0.95),
                              seen = aur_replica_interval(&with, 4, VALUES, 0.95);
     assert_memory_equal(&seen, &wide, sizeof seen);
     assert_true(seen.degrees < narrow.degrees && seen.low < narrow.low && seen.high > narrow.high);
-    with.alike = 10.0;
+    with.neighbours = 10.0;
     const aur_error_interval same = aur_replica_interval(&with, 4, VALUES, 0.95);
     assert_memory_equal(&same, &narrow, sizeof same);
 }

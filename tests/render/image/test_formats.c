@@ -222,11 +222,11 @@ static void test_png_of_others(void **state) {
     }
     size_t size;
     unsigned char *const bytes = read_bytes(scratch(0, "x.png"), &size);
-    static const size_t places[] = {18, 45}; /* in the size, and in the palette */
+    static const size_t offsets[] = {18, 45}; /* in the size, and in the palette */
     for (size_t i = 0; i < 2; ++i) {
-        bytes[places[i]] ^= 1;
+        bytes[offsets[i]] ^= 1;
         assert_read_fails("damaged", size, bytes, AUR_ERROR_FORMAT);
-        bytes[places[i]] ^= 1;
+        bytes[offsets[i]] ^= 1;
     }
     bytes[size - 20] ^= 1; /* in the pixels or their checksum */
     assert_read_fails("damaged", size, bytes, AUR_ERROR_FORMAT);
@@ -299,11 +299,11 @@ static void test_png_is_small(void **state) {
     }
     assert_true(stbi_write_png(scratch(0, "stb.png"), SIDE, SIDE, 3, values, 3 * SIDE));
     write_image(scratch(1, "own.png"), image, NULL);
-    size_t size_stb, size_own;
+    size_t size_stb, size_checksum;
     free(read_bytes(scratch(0, "stb.png"), &size_stb));
-    free(read_bytes(scratch(1, "own.png"), &size_own));
-    print_message("%zu bytes by stb, %zu here\n", size_stb, size_own);
-    assert_true(size_own > COUNT * 2 / 8 && 4 * size_own < 3 * size_stb);
+    free(read_bytes(scratch(1, "own.png"), &size_checksum));
+    print_message("%zu bytes by stb, %zu here\n", size_stb, size_checksum);
+    assert_true(size_checksum > COUNT * 2 / 8 && 4 * size_checksum < 3 * size_stb);
     free(values);
     aur_image_destroy(image);
     remove(scratch(0, "stb.png"));

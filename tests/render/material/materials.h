@@ -139,22 +139,22 @@ static inline aur_bsdf *make_bsdf(const char *text, const aur_bsdf *nested) {
 }
 
 static inline material make_material(const material_row *row) {
-    material made = {NULL, {NULL, NULL}};
+    material built = {NULL, {NULL, NULL}};
     char first[128] = "";
     if (row->nested != NULL) {
         const char *const bar = strchr(row->nested, '|');
         strncat(first, row->nested, bar != NULL ? (size_t)(bar - row->nested) : sizeof first - 1);
-        made.nested[0] = make_bsdf(first, NULL);
-        made.nested[1] = bar != NULL ? make_bsdf(bar + 1, NULL) : NULL;
+        built.nested[0] = make_bsdf(first, NULL);
+        built.nested[1] = bar != NULL ? make_bsdf(bar + 1, NULL) : NULL;
     }
-    made.bsdf = make_bsdf_of(row->text, (const aur_bsdf *const[2]){made.nested[0], made.nested[1]});
-    return made;
+    built.bsdf = make_bsdf_of(row->text, (const aur_bsdf *const[2]){built.nested[0], built.nested[1]});
+    return built;
 }
 
-static inline void drop_material(material *made) {
-    aur_bsdf_destroy(made->bsdf);
-    aur_bsdf_destroy(made->nested[0]);
-    aur_bsdf_destroy(made->nested[1]);
+static inline void drop_material(material *built) {
+    aur_bsdf_destroy(built->bsdf);
+    aur_bsdf_destroy(built->nested[0]);
+    aur_bsdf_destroy(built->nested[1]);
 }
 
 static inline float unit(uint64_t a, uint64_t b, uint64_t c) {

@@ -78,16 +78,16 @@ static void draws_by_the_density(void **state) {
     (void)state;
     enum { DRAWS = 40000 };
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         aur_vector view;
-        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(made.bsdf, v, &view); v += view_step()) {
+        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(built.bsdf, v, &view); v += view_step()) {
             double mass[CELL_COUNT], total = 0.0;
             size_t counts[CELL_COUNT] = {0}, drawn = 0;
-            integrate_pdf(made.bsdf, view, material_rows[m].flags & NARROW ? 3 * PARTS : PARTS, mass);
+            integrate_pdf(built.bsdf, view, material_rows[m].flags & NARROW ? 3 * PARTS : PARTS, mass);
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
                 aur_bsdf_sample sample;
-                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample) || sample.specular)
+                if (!aur_bsdf_draw(built.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample) || sample.specular)
                     continue;
                 ++counts[cell_of(sample.light)];
                 ++drawn;
@@ -119,7 +119,7 @@ static void draws_by_the_density(void **state) {
             if (!(deviate < 5.0))
                 fail_msg("%s, view %zu: chi-square %g in %g cells", material_rows[m].text, v, sum, cells);
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -127,24 +127,24 @@ static void draws_by_the_density(void **state) {
 static void samples_agree_with_evaluation(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         aur_vector view;
-        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(made.bsdf, v, &view); v += view_step()) {
+        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(built.bsdf, v, &view); v += view_step()) {
             for (size_t i = 0; i < 500; ++i) {
                 const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
                 aur_bsdf_sample sample;
-                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
+                if (!aur_bsdf_draw(built.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                     continue;
                 assert_near(aur_vector_length(sample.light), 1.0, 1e-5);
                 if (sample.specular)
                     continue;
-                const aur_vector value = value_of(made.bsdf, AUR_BSDF_WHOLE, view, sample.light);
-                assert_relative(sample.pdf, pdf_of(made.bsdf, AUR_BSDF_WHOLE, view, sample.light), 1e-3);
+                const aur_vector value = value_of(built.bsdf, AUR_BSDF_WHOLE, view, sample.light);
+                assert_relative(sample.pdf, pdf_of(built.bsdf, AUR_BSDF_WHOLE, view, sample.light), 1e-3);
                 assert_relative(sample.weight.y * sample.pdf, value.y, 1e-3);
                 assert_true(sample.weight.y >= 0.0f && isfinite(sample.weight.y));
             }
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -153,7 +153,7 @@ static void is_reciprocal(void **state) {
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
         if (material_rows[m].flags & NOT_RECIPROCAL)
             continue;
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         for (size_t i = 0; i < 2000; ++i) {
             const aur_vector a = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));
             aur_vector b = aur_sample_sphere(unit(m, 3, i), unit(m, 4, i));
@@ -167,11 +167,11 @@ static void is_reciprocal(void **state) {
             const bool glass = (material_rows[m].flags & GLASS) != 0;
             const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
                         below = glass && b.z < 0.0f ? 2.25f : 1.0f;
-            const float there = value_of(made.bsdf, AUR_BSDF_WHOLE, a, b).x / fabsf(b.z) / above;
-            const float back = value_of(made.bsdf, AUR_BSDF_WHOLE, b, a).x / fabsf(a.z) / below;
+            const float there = value_of(built.bsdf, AUR_BSDF_WHOLE, a, b).x / fabsf(b.z) / above;
+            const float back = value_of(built.bsdf, AUR_BSDF_WHOLE, b, a).x / fabsf(a.z) / below;
             assert_near(there, back, 2e-3 * fabs((double)there) + 1e-6);
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -179,16 +179,16 @@ static void is_reciprocal(void **state) {
 static void conserves_energy(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         aur_vector view;
-        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(made.bsdf, v, &view); v += view_step()) {
+        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(built.bsdf, v, &view); v += view_step()) {
             double sum = 0.0, squares = 0.0;
             enum { DRAWS = 20000 };
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 4, i), unit(v, 5, i), unit(v, 6, i)};
                 aur_bsdf_sample sample;
                 double weight = 0.0;
-                if (aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
+                if (aur_bsdf_draw(built.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                     weight =
                         (double)(sample.weight.x * (sample.ior_squared > 0.0f ? sample.ior_squared : 1.0f));
                 sum += weight;
@@ -201,7 +201,7 @@ static void conserves_energy(void **state) {
             if (!(mean <= 1.0 + 5.0 * sigma + 1e-5))
                 fail_msg("%s, view %zu: albedo %g +- %g", material_rows[m].text, v, mean, sigma);
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -234,30 +234,30 @@ static double diffuse_mass(const aur_bsdf_lobe *lobe) {
 static void lobes_are_the_material(void **state) {
     (void)state;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         aur_vector view;
-        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(made.bsdf, v, &view); v += view_step()) {
+        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(built.bsdf, v, &view); v += view_step()) {
             aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-            const size_t count = aur_bsdf_lobes(made.bsdf, point, view, lobes);
+            const size_t count = aur_bsdf_lobes(built.bsdf, point, view, lobes);
             double diffuse = 0.0;
             bool coated = false;
             for (size_t k = 0; k < count; ++k) {
                 diffuse += lobes[k].diffuse ? diffuse_mass(&lobes[k]) * (double)lobes[k].coefficient.x : 0.0;
                 coated = coated || lobes[k].factor != NULL;
             }
-            assert_near(diffuse, aur_bsdf_diffuse_albedo(made.bsdf, point, view.z).x, coated ? 1e-3 : 1e-6);
+            assert_near(diffuse, aur_bsdf_diffuse_albedo(built.bsdf, point, view.z).x, coated ? 1e-3 : 1e-6);
             for (size_t i = 0; i < 300; ++i) {
                 const aur_vector light = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));
                 if (light.z * view.z <= 0.0f)
                     continue;
                 double sum = 0.0;
                 for (size_t k = 0; k < count; ++k)
-                    sum += (double)lobe_value(made.bsdf, view, &lobes[k], light).x;
-                const double value = value_of(made.bsdf, AUR_BSDF_WHOLE, view, light).x;
+                    sum += (double)lobe_value(built.bsdf, view, &lobes[k], light).x;
+                const double value = value_of(built.bsdf, AUR_BSDF_WHOLE, view, light).x;
                 assert_near(sum, value, 1e-4 * value + 1e-7);
             }
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -300,18 +300,18 @@ static void lobes_are_the_same_at_every_point(void **state) {
 static void masks_in_masks_let_all_light_through(void **state) {
     (void)state;
     const aur_vector view = {0.0f, 0.6f, 0.8f};
-    aur_bsdf *made[6] = {make_bsdf("phong", NULL)};
+    aur_bsdf *built[6] = {make_bsdf("phong", NULL)};
     for (size_t n = 1; n < 6; ++n) {
-        made[n] = make_bsdf("mask:opacity=0.5", made[n - 1]);
+        built[n] = make_bsdf("mask:opacity=0.5", built[n - 1]);
         aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-        const size_t count = aur_bsdf_lobes(made[n], point, view, lobes);
+        const size_t count = aur_bsdf_lobes(built[n], point, view, lobes);
         float through = 0.0f;
         for (size_t i = 0; i < count; ++i)
             through += lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR ? lobes[i].coefficient.x : 0.0f;
         assert_true(through == 1.0f - ldexpf(1.0f, -(int)n));
     }
     for (size_t n = 6; n-- > 0;)
-        aur_bsdf_destroy(made[n]);
+        aur_bsdf_destroy(built[n]);
 }
 
 /* The light through a mask, and the reflection and refraction of a smooth material in it, are separate lobes.
@@ -319,17 +319,18 @@ static void masks_in_masks_let_all_light_through(void **state) {
 static void specular_lobes_of_a_mask_stay_apart(void **state) {
     (void)state;
     const aur_vector view = {0.0f, 0.6f, 0.8f};
-    material made = make_material(&(material_row){"mask:opacity=0.5", "dielectric:int_ior=1.5,ext_ior=1", 0});
-    aur_bsdf_lobe own[AUR_BSDF_LOBE_CAPACITY], lobes[AUR_BSDF_LOBE_CAPACITY];
-    assert_int_equal(aur_bsdf_lobes(made.nested[0], point, view, own), 2);
-    assert_int_equal(aur_bsdf_lobes(made.bsdf, point, view, lobes), 3);
+    material built =
+        make_material(&(material_row){"mask:opacity=0.5", "dielectric:int_ior=1.5,ext_ior=1", 0});
+    aur_bsdf_lobe nested[AUR_BSDF_LOBE_CAPACITY], lobes[AUR_BSDF_LOBE_CAPACITY];
+    assert_int_equal(aur_bsdf_lobes(built.nested[0], point, view, nested), 2);
+    assert_int_equal(aur_bsdf_lobes(built.bsdf, point, view, lobes), 3);
     for (size_t i = 0; i < 2; ++i) {
-        assert_true(lobes[i].coefficient.x == 0.5f * own[i].coefficient.x);
-        assert_true(lobes[i].axis.x == own[i].axis.x && lobes[i].axis.y == own[i].axis.y &&
-                    lobes[i].axis.z == own[i].axis.z && lobes[i].ior_squared == own[i].ior_squared);
+        assert_true(lobes[i].coefficient.x == 0.5f * nested[i].coefficient.x);
+        assert_true(lobes[i].axis.x == nested[i].axis.x && lobes[i].axis.y == nested[i].axis.y &&
+                    lobes[i].axis.z == nested[i].axis.z && lobes[i].ior_squared == nested[i].ior_squared);
     }
     assert_true(lobes[2].coefficient.x == 0.5f && lobes[2].axis.z == -0.8f);
-    drop_material(&made);
+    drop_material(&built);
 }
 
 /* Draws of a sampled lobe alone have weight value / pdf, and their mean is the integral of the value: against
@@ -338,11 +339,11 @@ static void sampled_lobes_are_drawn_alone(void **state) {
     (void)state;
     size_t found = 0;
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
+        material built = make_material(&material_rows[m]);
         aur_vector view;
-        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(made.bsdf, v, &view); v += view_step()) {
+        for (size_t v = first_view(m); v < VIEW_COUNT && view_at(built.bsdf, v, &view); v += view_step()) {
             aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-            const size_t count = aur_bsdf_lobes(made.bsdf, point, view, lobes);
+            const size_t count = aur_bsdf_lobes(built.bsdf, point, view, lobes);
             bool sampled = false;
             for (size_t k = 0; k < count; ++k)
                 sampled = sampled || lobes[k].shape == AUR_LOBE_SHAPE_SAMPLED;
@@ -354,10 +355,10 @@ static void sampled_lobes_are_drawn_alone(void **state) {
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 7, i), unit(v, 8, i), unit(v, 9, i)};
                 aur_bsdf_sample sample;
-                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, u, &sample))
+                if (!aur_bsdf_draw(built.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, u, &sample))
                     continue;
-                const double value = value_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light).x /
-                                     (double)pdf_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light);
+                const double value = value_of(built.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light).x /
+                                     (double)pdf_of(built.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light);
                 assert_near(value, sample.weight.x, 2e-3 * value + 1e-6);
                 sum += (double)sample.weight.x;
                 squares += (double)(sample.weight.x * sample.weight.x);
@@ -369,14 +370,14 @@ static void sampled_lobes_are_drawn_alone(void **state) {
             for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
                 const float z = 2.0f * ((float)(i / SIDE) + 0.5f) / SIDE - 1.0f;
                 const aur_vector light = aur_direction_at(z, ((float)(i % SIDE) + 0.5f) / SIDE);
-                integral += (double)value_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, light).x;
+                integral += (double)value_of(built.bsdf, AUR_BSDF_SAMPLED_LOBES, view, light).x;
             }
             integral *= 4.0 * AUR_PI / ((double)SIDE * SIDE);
             if (!(fabs(mean - integral) <= 5.0 * sigma + 0.01 * integral + 1e-6))
                 fail_msg("%s, view %zu: drawn %g +- %g, but %g", material_rows[m].text, v, mean, sigma,
                          integral);
         }
-        drop_material(&made);
+        drop_material(&built);
     }
     assert_true(found > 0);
 }
@@ -387,7 +388,7 @@ static void lobe_reflectance_is_its_parameter(void **state) {
     (void)state;
     static const material_row row = {"phong_lobe:exponent=50,diffuse_reflectance=0,specular_reflectance=0.8",
                                      NULL, 0};
-    material made = make_material(&row);
+    material built = make_material(&row);
     static const struct {
         double cosine, expected, tolerance;
     } views[] = {{1.0, 0.8, 1e-5}, {1e-4, 0.4, 2e-3}};
@@ -399,19 +400,19 @@ static void lobe_reflectance_is_its_parameter(void **state) {
         for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
             const float u[3] = {0.5f, ((float)(i / SIDE) + 0.5f) / SIDE, ((float)(i % SIDE) + 0.5f) / SIDE};
             aur_bsdf_sample sample;
-            if (aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
+            if (aur_bsdf_draw(built.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                 sum += (double)sample.weight.x;
         }
         assert_near(sum / ((double)SIDE * SIDE), views[v].expected, views[v].tolerance);
     }
-    drop_material(&made);
+    drop_material(&built);
 }
 
 /* Materials defined by Mitsuba 3's formulas have its values, up to single-precision rounding: the narrowest
  * lobes magnify that of a direction by the inverse of their roughness. */
 static void values_are_those_of_mitsuba(void **state) {
     (void)state;
-    material made;
+    material built;
     const size_t count = sizeof mitsuba_values / sizeof mitsuba_values[0];
     for (size_t i = 0; i < count; ++i) {
         const mitsuba_value *const row = &mitsuba_values[i];
@@ -422,15 +423,15 @@ static void values_are_those_of_mitsuba(void **state) {
             *nested = '\0';
         /* The tables of rough coats take a while. */
         if (i == 0 || strcmp(row->material, row[-1].material) != 0)
-            made = make_material(&(material_row){text, nested != NULL ? nested + 1 : NULL, 0});
-        const aur_vector value = value_of(made.bsdf, AUR_BSDF_WHOLE, row->view, row->light);
+            built = make_material(&(material_row){text, nested != NULL ? nested + 1 : NULL, 0});
+        const aur_vector value = value_of(built.bsdf, AUR_BSDF_WHOLE, row->view, row->light);
         const float difference = aur_vector_length(aur_vector_subtract(value, row->value));
         if (!(difference <= 2e-5f * aur_vector_length(row->value) + 1e-7f))
             fail_msg("%s: %g %g %g instead of %g %g %g (row %zu)", row->material, (double)value.x,
                      (double)value.y, (double)value.z, (double)row->value.x, (double)row->value.y,
                      (double)row->value.z, i);
         if (i + 1 == count || strcmp(row->material, row[1].material) != 0)
-            drop_material(&made);
+            drop_material(&built);
     }
 }
 

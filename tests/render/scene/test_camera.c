@@ -97,7 +97,7 @@ static void values_of_filters(void **state) {
     (void)state;
     static const struct {
         const char *name;
-        double radius, middle, beside;
+        double radius, middle, neighbour;
         bool shares, whole;
     } rows[] = {{"box", 0.5, 1.0, 0.0, false, true},
                 {"tent", 1.0, 1.0, 0.0, true, true},
@@ -109,7 +109,7 @@ static void values_of_filters(void **state) {
         const aur_filter *const filter = aur_filter_find(rows[f].name);
         assert_near(aur_filter_radius(filter), rows[f].radius, 0.0);
         assert_near(aur_filter_value(filter, 0.0), rows[f].middle, 1e-8);
-        assert_near(aur_filter_value(filter, -1.0), rows[f].beside, 1e-8);
+        assert_near(aur_filter_value(filter, -1.0), rows[f].neighbour, 1e-8);
         assert_near(aur_filter_value(filter, rows[f].radius + 1e-9), 0.0, 0.0);
         assert_int_equal(aur_filter_shares_samples(filter), rows[f].shares);
         for (double at = -0.45; at < 0.5 && rows[f].whole; at += 0.1) {

@@ -57,11 +57,11 @@ static void test_hangs(void **state) {
 
 static void test_cancel(void **state) {
     (void)state;
-    int asked = 0;
+    int calls = 0;
     aur_error error = {0};
-    const aur_progress progress = {stop_at_third, &asked};
+    const aur_progress progress = {stop_at_third, &calls};
     assert_int_equal(wait_for("exec sleep 1000", 100.0, 6.0, &progress, &error), AUR_ERROR_CANCELLED);
-    assert_int_equal(asked, 3);
+    assert_int_equal(calls, 3);
 }
 
 static void test_limits_grow(void **state) {

@@ -79,7 +79,7 @@ static void test_views_are_those_of_all_corners(void **state) {
             assert_int_equal(one->group_count, 1);
             assert_int_equal(many->group_count, COPIES);
             assert_memory_equal(one->middle, many->middle, sizeof one->middle);
-            assert_memory_equal(one->sensor.place, many->sensor.place, sizeof one->sensor.place);
+            assert_memory_equal(one->sensor.position, many->sensor.position, sizeof one->sensor.position);
             aur_scene_destroy(one);
             aur_scene_destroy(many);
         }

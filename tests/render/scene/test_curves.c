@@ -104,13 +104,13 @@ static void hits_curves(void **state) {
             for (size_t side = 0; side < 2 && aur_vector_dot(normal, ray.direction) < -0.3f; ++side) {
                 const aur_frame frame = aur_frame_about(ray.direction);
                 const float step = 1e-3f;
-                aur_ray beside = ray;
-                beside.origin = aur_vector_add_scaled(ray.origin, step, side == 0 ? frame.x : frame.y);
+                aur_ray shifted = ray;
+                shifted.origin = aur_vector_add_scaled(ray.origin, step, side == 0 ? frame.x : frame.y);
                 aur_hit other;
                 aur_surface there;
-                if (!aur_scene_intersect(scene, &beside, &other) || other.primitive != hit.primitive)
+                if (!aur_scene_intersect(scene, &shifted, &other) || other.primitive != hit.primitive)
                     continue;
-                aur_scene_surface(scene, &beside, &other, &there);
+                aur_scene_surface(scene, &shifted, &other, &there);
                 const aur_vector way = aur_vector_subtract(there.position, surface.position);
                 ++normals;
                 assert_near(aur_vector_dot(way, normal) / aur_vector_length(way), 0.0, 0.03);

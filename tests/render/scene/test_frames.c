@@ -202,10 +202,10 @@ static void has_the_tangents_of_its_coordinates(void **state) {
             ray_of(i, &origin, &target);
             origin = apply(maps[m].m, origin);
             target = apply(maps[m].m, target);
-            const aur_vector beside =
+            const aur_vector shifted =
                 aur_vector_add_scaled(target, 2e-3f, aur_sample_sphere(unit(6, i), unit(7, i)));
             if (!meet(scene, origin, target, &hit[0], &at[0]) ||
-                !meet(scene, origin, beside, &hit[1], &at[1]) || hit[0].primitive != hit[1].primitive)
+                !meet(scene, origin, shifted, &hit[1], &at[1]) || hit[0].primitive != hit[1].primitive)
                 continue;
             const aur_vector way = aur_vector_subtract(at[1].position, at[0].position);
             const float du = round_the_seam(at[1].texture.u - at[0].texture.u),

@@ -95,9 +95,9 @@ static void draws_for_normals(void **state) {
     enum { COUNT = 20000 };
     static const char *const plain = "<float name='radiance' value='2'/>";
     static const struct {
-        const char *place;  /* of a square of 2 x 2 that shines upwards */
-        aur_vector normal;  /* of the surface at (0, 0, 1) */
-        const char *lights; /* NULL: evenly */
+        const char *to_world; /* of a square of 2 x 2 that shines upwards */
+        aur_vector normal;    /* of the surface at (0, 0, 1) */
+        const char *lights;   /* NULL: evenly */
     } rows[] = {
         {"<translate z='-1'/>", {0.6f, 0.0f, -0.8f}, NULL},
         {"<translate x='.4' z='0'/>", {0.96f, 0.0f, -0.28f}, NULL}, /* crosses the horizon */
@@ -117,7 +117,7 @@ static void draws_for_normals(void **state) {
         snprintf(body, sizeof body,
                  "<shape type='rectangle'><transform name='to_world'>%s</transform><emitter "
                  "type='area'>%s</emitter></shape>",
-                 rows[i].place, rows[i].lights != NULL ? rows[i].lights : plain);
+                 rows[i].to_world, rows[i].lights != NULL ? rows[i].lights : plain);
         aur_scene *const scene = must_load_body(body);
         double sums[2] = {0.0}, squares[2] = {0.0};
         for (size_t k = 0; k < 2 * COUNT; ++k) {

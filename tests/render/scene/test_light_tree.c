@@ -130,8 +130,8 @@ static void odd_places(void **state) {
 /* --- scenes */
 
 #define AREA(radiance) "<emitter type='area'><rgb name='radiance' value='" radiance "'/></emitter>"
-#define SQUARE(place, more)                                                                                  \
-    "<shape type='rectangle'><transform name='to_world'>" place "</transform>" more "</shape>"
+#define SQUARE(to_world, more)                                                                               \
+    "<shape type='rectangle'><transform name='to_world'>" to_world "</transform>" more "</shape>"
 
 /* The pdf of a sampled point that a ray hits. */
 static void check_density(const aur_scene *scene, const aur_light_reference *at,
@@ -155,7 +155,7 @@ static void compare_with_each(const aur_scene *scene, const aur_light_reference 
     double each = 0.0, each_variance = 0.0, sum = 0.0, squares = 0.0;
     for (size_t e = 0; e < scene->emitter_count; ++e) {
         const aur_emitter *const emitter = scene->emitters[e];
-        double own = 0.0, own_squares = 0.0;
+        double total = 0.0, total_squares = 0.0;
         for (size_t i = 0; i < COUNT / 16; ++i) {
             const aur_light_query query = {.reference = *at,
                                            .u = {unit(e, 3 * i), unit(e, 3 * i + 1), unit(e, 3 * i + 2)},
@@ -167,12 +167,12 @@ static void compare_with_each(const aur_scene *scene, const aur_light_reference 
                                       ? 1.0
                                       : fmax((double)aur_vector_dot(at->normal, sample.direction), 0.0);
             const double value = cosine * (double)sample.radiance.y / (double)sample.pdf;
-            own += value;
-            own_squares += value * value;
+            total += value;
+            total_squares += value * value;
         }
-        const double n = COUNT / 16, mean = own / n;
+        const double n = COUNT / 16, mean = total / n;
         each += mean;
-        each_variance += (own_squares / n - mean * mean) / n;
+        each_variance += (total_squares / n - mean * mean) / n;
     }
     for (size_t i = 0; i < COUNT; ++i) {
         const float u[3] = {(float)spread_over(i, COUNT), unit(99, 2 * i), unit(99, 2 * i + 1)};

@@ -70,26 +70,26 @@ typedef struct translation {
     heard warnings;
 } translation;
 
-static void translate(const char *name, const char *text, translation *made) {
-    *made = (translation){0};
+static void translate(const char *name, const char *text, translation *imported) {
+    *imported = (translation){0};
     aur_error error = {0};
-    const aur_warnings to = {hear, &made->warnings};
+    const aur_warnings to = {hear, &imported->warnings};
     const aur_model_source source = {.name = name,
                                      .size = strlen(text),
                                      .data = text,
                                      .warnings = &to,
                                      .location = {.file = name},
                                      .find = find_nothing};
-    aur_xml_variables variables = {.arena = &made->tree.arena};
-    aur_nodes nodes = {.tree = &made->tree, .variables = &variables, .error = &error};
-    if (aur_model_read(&source, &made->files, &nodes, aur_node_add(&nodes, NULL, "scene")) != AUR_OK)
+    aur_xml_variables variables = {.arena = &imported->tree.arena};
+    aur_nodes nodes = {.tree = &imported->tree, .variables = &variables, .error = &error};
+    if (aur_model_read(&source, &imported->files, &nodes, aur_node_add(&nodes, NULL, "scene")) != AUR_OK)
         fail_msg("%s", error.message);
     free(variables.items);
 }
 
-static void release(translation *made) {
-    aur_xml_tree_release(&made->tree);
-    aur_model_release_files(&made->files);
+static void release(translation *imported) {
+    aur_xml_tree_release(&imported->tree);
+    aur_model_release_files(&imported->files);
 }
 
 /* How many elements below `node` have the tag and, where it is given, the value of an attribute. */
@@ -125,15 +125,15 @@ static void test_parts(void **state) {
         "f 1/1 2/2 3/1\nusemtl a\nf 1/1 3/2 4/1\nusemtl b\nf 1/1 2/2 4/1\nusemtl a\nf 2/2 3/1 4/1\n";
     static const uint8_t corners[3][2][3] = {{{0, 2, 3}, {1, 2, 3}}, {{0, 1, 3}}, {{0, 1, 2}}};
     static const size_t counts[3] = {2, 1, 1};
-    translation made;
-    translate("a.obj", text, &made);
-    assert_int_equal(made.files.count, 3);
-    assert_int_equal(count_of(made.tree.root, "shape", "type", "ply"), 3);
-    assert_int_equal(count_of(made.tree.root, "emitter", NULL, NULL), 0);
-    assert_int_equal(made.warnings.count, 1);
-    assert_non_null(strstr(made.warnings.last, "1 file cannot be found: 'none.mtl'"));
+    translation imported;
+    translate("a.obj", text, &imported);
+    assert_int_equal(imported.files.count, 3);
+    assert_int_equal(count_of(imported.tree.root, "shape", "type", "ply"), 3);
+    assert_int_equal(count_of(imported.tree.root, "emitter", NULL, NULL), 0);
+    assert_int_equal(imported.warnings.count, 1);
+    assert_non_null(strstr(imported.warnings.last, "1 file cannot be found: 'none.mtl'"));
     for (size_t i = 0; i < 3; ++i) {
-        aur_mesh_data data = read_part(&made.files.items[i]);
+        aur_mesh_data data = read_part(&imported.files.items[i]);
         assert_int_equal(data.triangle_count, counts[i]);
         for (size_t k = 0; k < 3 * counts[i]; ++k) {
             const double *const expected = points[corners[i][k / 3][k % 3]];
@@ -143,7 +143,7 @@ static void test_parts(void **state) {
         assert_true(data.uvs[1] == 0.75f || data.uvs[1] == 1.0f);
         aur_mesh_data_release(&data);
     }
-    release(&made);
+    release(&imported);
 }
 
 /* Files of one material are taken as they are. */
@@ -163,14 +163,14 @@ static void test_whole(void **state) {
         /* by its bytes, whatever its name is */
         {"b.obj", "off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
-        translation made;
-        translate(rows[i][0], rows[i][2], &made);
-        assert_int_equal(count_of(made.tree.root, "shape", "type", rows[i][1]), 1);
-        assert_int_equal(count_of(made.tree.root, "string", "value", "vertex_color"), i == 0);
-        assert_int_equal(made.files.count, 1);
-        assert_string_equal(made.files.items[0].data, rows[i][2]);
-        assert_int_equal(made.files.items[0].size, strlen(rows[i][2]));
-        release(&made);
+        translation imported;
+        translate(rows[i][0], rows[i][2], &imported);
+        assert_int_equal(count_of(imported.tree.root, "shape", "type", rows[i][1]), 1);
+        assert_int_equal(count_of(imported.tree.root, "string", "value", "vertex_color"), i == 0);
+        assert_int_equal(imported.files.count, 1);
+        assert_string_equal(imported.files.items[0].data, rows[i][2]);
+        assert_int_equal(imported.files.items[0].size, strlen(rows[i][2]));
+        release(&imported);
     }
 }
 

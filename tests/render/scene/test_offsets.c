@@ -117,13 +117,13 @@ static aur_scene *load_shape(size_t shape, double size, size_t turn, double away
 static size_t test_place(size_t shape, double size, size_t turn, double away, size_t *tried) {
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
     aur_scene *const scene = load_shape(shape, size, turn, away, "");
-    const aur_vector place = aur_place_from(aur_scene_origin(scene), at);
+    const aur_vector point = aur_place_from(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < 60; ++i) {
         /* Towards positions around the origin, some of them very near to it. */
         const float near = (float)size * powf(10.0f, -4.0f * unit(i, 1));
         const aur_vector target =
-            aur_vector_add_scaled(place, 0.5f * near, aur_sample_sphere(unit(i, 2), unit(i, 3)));
+            aur_vector_add_scaled(point, 0.5f * near, aur_sample_sphere(unit(i, 2), unit(i, 3)));
         const aur_vector way = aur_sample_sphere(unit(i, 4), unit(i, 5));
         const aur_ray ray = {aur_vector_add_scaled(target, -5.0f * (float)size, way), 0.0f, way, INFINITY};
         aur_hit hit;
@@ -162,12 +162,12 @@ static size_t test_light(size_t shape, double size, size_t turn, double away, si
     enum { RAYS = 400 };
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
     aur_scene *const scene = load_shape(shape, size, turn, away, "<emitter type='area'/>");
-    const aur_vector place = aur_place_from(aur_scene_origin(scene), at);
+    const aur_vector point = aur_place_from(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < RAYS; ++i) {
         const float distance = (float)size * powf(10.0f, 5.0f * unit(i, 6) - 2.0f);
         const aur_light_reference reference = {
-            .position = aur_vector_add_scaled(place, distance, aur_sample_sphere(unit(i, 7), unit(i, 8)))};
+            .position = aur_vector_add_scaled(point, distance, aur_sample_sphere(unit(i, 7), unit(i, 8)))};
         aur_light_sample light;
         if (!aur_light_sample_direct(scene, &reference,
                                      (const float[3]){unit(i, 9), unit(i, 10), unit(i, 11)}, &light))

@@ -16,13 +16,13 @@ static float unit(uint64_t a, uint64_t b) {
 
 /* Translations of the scenes. Coordinates of files have at most seven binary places, so that all are exact.
  */
-static const double places[][3] = {
+static const double offsets[][3] = {
     {1e5, 1e5, 0.0},     {2600000.0, 1200000.0, 408.5},    {500000.25, 5400000.75, 113.125},
     {-1e7, 1e7, -1e7},   {691607.25, -5334760.125, 515.5}, {1e8, 0.0, 0.0},
     {0.0, 0.0, 65536.5},
 };
 
-enum { PLACES = sizeof places / sizeof places[0] };
+enum { OFFSETS = sizeof offsets / sizeof offsets[0] };
 
 /* Texts contain $x, $y and $z for x, y and z plus the coordinates of the position. */
 static void expand(const char *text, const double at[3], char *expanded, size_t capacity) {
@@ -131,7 +131,7 @@ static const char *const shapes[] = {
 
 /* Rays from the same positions hit the same at the same distances. Few pass so close to an edge that rounding
  * decides. */
-static void compare_rays(const aur_scene *near, const aur_scene *far, const double place[3]) {
+static void compare_rays(const aur_scene *near, const aur_scene *far, const double offset[3]) {
     const aur_scene *const scenes[2] = {near, far};
     size_t hits = 0, edges = 0;
     for (size_t i = 0; i < 400; ++i) {
@@ -143,7 +143,7 @@ static void compare_rays(const aur_scene *near, const aur_scene *far, const doub
         for (size_t k = 0; k < 2; ++k) {
             double start[3];
             for (size_t d = 0; d < 3; ++d)
-                start[d] = (k == 0 ? 0.0 : place[d]) - 4.0 * (double)*aur_channel(&way, d) +
+                start[d] = (k == 0 ? 0.0 : offset[d]) - 4.0 * (double)*aur_channel(&way, d) +
                            (double)*aur_channel(&aim, d);
             const aur_ray ray = {aur_place_from(aur_scene_origin(scenes[k]), start), 0.0f, way, INFINITY};
             met[k] = aur_scene_intersect(scenes[k], &ray, &hit[k]);
@@ -175,18 +175,18 @@ static void rays_meet_the_same(void **state) {
         aur_scene *const near = must_load_body(body);
         for (size_t k = 0; k < 3; ++k)
             assert_true(aur_scene_origin(near)[k] == 0.0);
-        for (size_t p = 0; p < PLACES; ++p) {
-            write_meshes(places[p]);
-            expand(shapes[i], places[p], body, sizeof body);
+        for (size_t p = 0; p < OFFSETS; ++p) {
+            write_meshes(offsets[p]);
+            expand(shapes[i], offsets[p], body, sizeof body);
             aur_scene *const far = must_load_body(body);
-            compare_rays(near, far, places[p]);
+            compare_rays(near, far, offsets[p]);
             assert_relative(far->shapes[0]->area, near->shapes[0]->area, 1e-6);
             aur_scene_description a = {.size = sizeof a}, b = a;
             assert_int_equal(aur_scene_get_description(near, &a, NULL), AUR_OK);
             assert_int_equal(aur_scene_get_description(far, &b, NULL), AUR_OK);
             for (size_t k = 0; k < 3; ++k) {
-                assert_near(b.lower[k] - places[p][k], a.lower[k], 1e-5);
-                assert_near(b.upper[k] - places[p][k], a.upper[k], 1e-5);
+                assert_near(b.lower[k] - offsets[p][k], a.lower[k], 1e-5);
+                assert_near(b.upper[k] - offsets[p][k], a.upper[k], 1e-5);
             }
             aur_scene_destroy(far);
         }
@@ -221,12 +221,12 @@ static void lights_and_cameras_move(void **state) {
     char body[4096];
     expand(text, zero, body, sizeof body);
     aur_scene *const near = must_load_body(body);
-    for (size_t p = 0; p < PLACES; ++p) {
-        expand(text, places[p], body, sizeof body);
+    for (size_t p = 0; p < OFFSETS; ++p) {
+        expand(text, offsets[p], body, sizeof body);
         aur_scene *const far = must_load_body(body);
         for (size_t i = 0; i < 200; ++i) {
             const double at[3] = {(double)unit(1, i), (double)unit(2, i), (double)unit(3, i)};
-            const double there[3] = {places[p][0] + at[0], places[p][1] + at[1], places[p][2] + at[2]};
+            const double there[3] = {offsets[p][0] + at[0], offsets[p][1] + at[1], offsets[p][2] + at[2]};
             const aur_vector a = aur_place_from(aur_scene_origin(near), at);
             const aur_vector b = aur_place_from(aur_scene_origin(far), there);
             const float u[3] = {unit(4, i), unit(5, i), unit(6, i)};

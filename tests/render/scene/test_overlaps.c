@@ -97,18 +97,18 @@ static void make(mesh *m, int kind, uint64_t seed) {
     add_square(m, 8, start, across, along, kind == 2 ? 0.05 : 0.0);
     /* Stray triangles, narrow and wide, some with corners of the squares and some in planes of theirs. */
     for (size_t i = 0; i < 60 && m->count < MOST; ++i) {
-        const uint64_t own = aur_hash3(seed, 77, i);
-        const double size = pow(10.0, -4.0 * unit(own, 0)), narrow = pow(10.0, -5.0 * unit(own, 1));
-        const size_t from = (size_t)(unit(own, 2) * 120.0) % m->count;
-        double(*const made)[3] = m->corners[m->count++];
+        const uint64_t hash = aur_hash3(seed, 77, i);
+        const double size = pow(10.0, -4.0 * unit(hash, 0)), narrow = pow(10.0, -5.0 * unit(hash, 1));
+        const size_t from = (size_t)(unit(hash, 2) * 120.0) % m->count;
+        double(*const added)[3] = m->corners[m->count++];
         const double(*const other)[3] = (const double(*)[3])m->corners[from];
         for (size_t d = 0; d < 3; ++d) {
             const double u = other[1][d] - other[0][d], v = other[2][d] - other[0][d];
             const bool inside = i % 3 > 0;
-            made[0][d] = inside ? other[0][d] + 0.25 * u + 0.5 * v : unit(own, 10 + d);
-            made[1][d] = made[0][d] + size * (inside ? u - 0.3 * v : unit(own, 13 + d) - 0.5);
-            made[2][d] = made[0][d] + size * (inside ? 0.7 * u : unit(own, 13 + d) - 0.5) +
-                         size * narrow * (inside ? v : unit(own, 16 + d) - 0.5);
+            added[0][d] = inside ? other[0][d] + 0.25 * u + 0.5 * v : unit(hash, 10 + d);
+            added[1][d] = added[0][d] + size * (inside ? u - 0.3 * v : unit(hash, 13 + d) - 0.5);
+            added[2][d] = added[0][d] + size * (inside ? 0.7 * u : unit(hash, 13 + d) - 0.5) +
+                          size * narrow * (inside ? v : unit(hash, 16 + d) - 0.5);
         }
     }
 }

@@ -13,11 +13,11 @@
 enum { CAPACITY = 1 << 20 };
 
 static aur_photometry must_parse(const char *text) {
-    aur_photometry lamp;
+    aur_photometry photometry;
     aur_error error = {0};
-    if (aur_photometry_parse("lamp", strlen(text), text, &lamp, &error) != AUR_OK)
+    if (aur_photometry_parse("lamp", strlen(text), text, &photometry, &error) != AUR_OK)
         fail_msg("line %zu: %s", error.line, error.message);
-    return lamp;
+    return photometry;
 }
 
 /* Linear in both angles between the files' steps of 5 degrees; about 0 and 180, and about 90 and 270, as
@@ -98,24 +98,25 @@ static void symmetries(void **state) {
     for (int symmetry = 0; symmetry < 5; ++symmetry)
         for (int format = 0; format < 2; ++format) {
             (format == 0 ? write_ies : write_eulumdat)(symmetry, text);
-            aur_photometry lamp = must_parse(text);
+            aur_photometry photometry = must_parse(text);
             double flux = 0.0;
             for (size_t i = 0; i < 2000; ++i) {
                 const double c = 360.0 * (double)i / 2000.0, gamma = 180.0 * fmod(0.618034 * (double)i, 1.0);
                 const double a = c * AUR_PI / 180.0, g = gamma * AUR_PI / 180.0;
                 const double way[3] = {3.0 * cos(a) * sin(g), 3.0 * sin(a) * sin(g), -3.0 * cos(g)};
-                assert_relative(aur_photometry_intensity(&lamp, way), measured(symmetry, c, gamma), 1e-5);
+                assert_relative(aur_photometry_intensity(&photometry, way), measured(symmetry, c, gamma),
+                                1e-5);
             }
             /* by midpoints, whose error is below a part in 10^5 */
             for (int c = 0; c < 720; ++c)
                 for (int g = 0; g < 720; ++g)
                     flux += measured(symmetry, 0.5 * (c + 0.5), 0.25 * (g + 0.5)) *
                             sin(0.25 * (g + 0.5) * AUR_PI / 180.0) * (AUR_PI / 360.0) * (AUR_PI / 720.0);
-            assert_relative(aur_photometry_flux(&lamp), flux, 1e-4);
-            assert_near(lamp.length, 1.2, 1e-12);
-            assert_near(lamp.width, 0.3, 1e-12);
-            assert_near(lamp.lumens, format == 0 ? 3000.0 : 2000.0, 0.0);
-            aur_photometry_release(&lamp);
+            assert_relative(aur_photometry_flux(&photometry), flux, 1e-4);
+            assert_near(photometry.length, 1.2, 1e-12);
+            assert_near(photometry.width, 0.3, 1e-12);
+            assert_near(photometry.lumens, format == 0 ? 3000.0 : 2000.0, 0.0);
+            aur_photometry_release(&photometry);
         }
     free(text);
 }
@@ -125,29 +126,30 @@ static void symmetries(void **state) {
 static void fluxes(void **state) {
     (void)state;
     char *const text = malloc(CAPACITY);
-    aur_photometry lamp = must_parse("a lamp\nTILT=NONE\n1 1000 7 2 1 1 1 -1 0 0\n1 1 9\n0 180\n0\n1 1\n");
-    assert_relative(aur_photometry_flux(&lamp), 28.0 * AUR_PI, 1e-6);
-    assert_true(lamp.round);
-    assert_near(lamp.length, 0.3048, 1e-12);
-    aur_photometry_release(&lamp);
+    aur_photometry photometry =
+        must_parse("a lamp\nTILT=NONE\n1 1000 7 2 1 1 1 -1 0 0\n1 1 9\n0 180\n0\n1 1\n");
+    assert_relative(aur_photometry_flux(&photometry), 28.0 * AUR_PI, 1e-6);
+    assert_true(photometry.round);
+    assert_near(photometry.length, 0.3048, 1e-12);
+    aur_photometry_release(&photometry);
     size_t used = (size_t)sprintf(text, "TILT=INCLUDE\n1 3\n0 45 90\n1 1 1\n1 -1 10 91 1 1 2 0 0 0 1 1 9\n");
     for (int g = 0; g <= 90; ++g)
         used += (size_t)sprintf(text + used, "%d ", g);
     used += (size_t)sprintf(text + used, "\n0\n");
     for (int g = 0; g <= 90; ++g)
         used += (size_t)sprintf(text + used, "%.12g ", cos(g * AUR_PI / 180.0));
-    lamp = must_parse(text);
-    assert_relative(aur_photometry_flux(&lamp), 10.0 * AUR_PI, 1e-4);
-    assert_near(lamp.lumens, 0.0, 0.0);
-    assert_near(aur_photometry_intensity(&lamp, (const double[3]){0, 0, 1}), 0.0, 0.0);
-    aur_photometry_release(&lamp);
+    photometry = must_parse(text);
+    assert_relative(aur_photometry_flux(&photometry), 10.0 * AUR_PI, 1e-4);
+    assert_near(photometry.lumens, 0.0, 0.0);
+    assert_near(aur_photometry_intensity(&photometry, (const double[3]){0, 0, 1}), 0.0, 0.0);
+    aur_photometry_release(&photometry);
     for (int type = 2; type <= 3; ++type)
         for (int half = 0; half < 2; ++half) {
             sprintf(text, "TILT=NONE\n1 9 1 2 2 %d 2 0 0 0 1 1 9\n%d 90\n%d 90\n1 1 1 1\n", type,
                     half == 0 ? -90 : 0, half == 0 ? -90 : 0);
-            lamp = must_parse(text);
-            assert_relative(aur_photometry_flux(&lamp), 2.0 * AUR_PI, 2e-3);
-            aur_photometry_release(&lamp);
+            photometry = must_parse(text);
+            assert_relative(aur_photometry_flux(&photometry), 2.0 * AUR_PI, 2e-3);
+            aur_photometry_release(&photometry);
         }
     free(text);
 }
@@ -183,9 +185,9 @@ static void damage(void **state) {
         {"\x89PNG\r\n\x1a\n", 2, "the type expected"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
-        aur_photometry lamp;
+        aur_photometry photometry;
         aur_error error = {0};
-        if (aur_photometry_parse("lamp", strlen(rows[i].text), rows[i].text, &lamp, &error) == AUR_OK)
+        if (aur_photometry_parse("lamp", strlen(rows[i].text), rows[i].text, &photometry, &error) == AUR_OK)
             fail_msg("row %zu is read", i);
         if (strstr(error.message, rows[i].message) == NULL || error.line != rows[i].line)
             fail_msg("row %zu: line %zu: %s", i, error.line, error.message);
@@ -199,16 +201,16 @@ static void damage(void **state) {
         const bool words = n == 1 || (n >= 8 && n <= 12) || n == 27 || n == 28 || n == 30 || n == 31 ||
                            n == 32 || (n >= 33 && n <= 42);
         for (int cut = 0; cut < 2; ++cut) {
-            const size_t kept = (size_t)(line - text);
-            memcpy(bad, text, kept);
-            strcpy(bad + kept, cut ? "" : "words\r\n");
+            const size_t before = (size_t)(line - text);
+            memcpy(bad, text, before);
+            strcpy(bad + before, cut ? "" : "words\r\n");
             if (!cut)
                 strcat(bad, next);
-            aur_photometry lamp;
+            aur_photometry photometry;
             aur_error error = {0};
-            const aur_result result = aur_photometry_parse("lamp", strlen(bad), bad, &lamp, &error);
+            const aur_result result = aur_photometry_parse("lamp", strlen(bad), bad, &photometry, &error);
             if (result == AUR_OK)
-                aur_photometry_release(&lamp);
+                aur_photometry_release(&photometry);
             if ((result == AUR_OK) != (words && !cut))
                 fail_msg("line %zu %s: %d %s", n, cut ? "cut" : "in words", (int)result, error.message);
         }

@@ -33,12 +33,12 @@ static const aur_table table = {.kind = "thing", AUR_TABLE_ROWS(rows)};
 
 /* Reads 'value', and fails where it is below 0. */
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
-    thing *const made = object;
+    thing *const created = object;
     const aur_parameter *const item = aur_parameters_find(parameters, "value");
-    made->more = strdup(context);
-    assert_non_null(made->more);
-    if (made->descriptor == &small)
-        assert_true(*made->data == 0.0);
+    created->more = strdup(context);
+    assert_non_null(created->more);
+    if (created->descriptor == &small)
+        assert_true(*created->data == 0.0);
     if (item != NULL && item->text[0] == '-')
         return aur_parameters_fail_value(parameters, item, "positive", error);
     return AUR_OK;
@@ -58,14 +58,14 @@ static const aur_plugin_kind kind = {.table = &table,
                                      .release = release};
 
 /* An object of the type, with one parameter. */
-static aur_result create(const char *type, const char *name, const char *value, thing **made,
+static aur_result create(const char *type, const char *name, const char *value, thing **created,
                          aur_error *error) {
     const aur_location here = {"a.xml", 7, 3};
     aur_parameters parameters;
     assert_int_equal(aur_parameters_init(&parameters, "thing", type, here, error), AUR_OK);
     assert_int_equal(aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, name, value, here, error),
                      AUR_OK);
-    const aur_result result = aur_plugin_create(&kind, &parameters, "context", made, error);
+    const aur_result result = aur_plugin_create(&kind, &parameters, "context", created, error);
     aur_parameters_release(&parameters);
     return result;
 }
@@ -74,13 +74,13 @@ static void creates_and_destroys(void **state) {
     (void)state;
     static const char *const types[] = {"small", "none"};
     for (size_t i = 0; i < 2; ++i) {
-        thing *made = NULL;
+        thing *created = NULL;
         released = data_released = 0;
-        assert_int_equal(create(types[i], "value", "1", &made, NULL), AUR_OK);
-        assert_ptr_equal(&made->descriptor->row, rows[i]);
-        assert_string_equal(made->more, "context");
+        assert_int_equal(create(types[i], "value", "1", &created, NULL), AUR_OK);
+        assert_ptr_equal(&created->descriptor->row, rows[i]);
+        assert_string_equal(created->more, "context");
         assert_int_equal(released, 0);
-        aur_plugin_destroy(&kind, made);
+        aur_plugin_destroy(&kind, created);
         assert_int_equal(released, 1);
         assert_int_equal(data_released, i == 0);
     }
@@ -99,12 +99,12 @@ static void failures_release(void **state) {
                  {"small", "value", "-1", "must be positive", AUR_ERROR_FORMAT, 1},
                  {"small", "valu", "1", "valu", AUR_ERROR_NAME, 1}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        thing *made = (thing *)&released;
+        thing *created = (thing *)&released;
         aur_error error = {0};
         released = data_released = 0;
-        assert_int_equal(create(cases[i].type, cases[i].name, cases[i].value, &made, &error),
+        assert_int_equal(create(cases[i].type, cases[i].name, cases[i].value, &created, &error),
                          cases[i].result);
-        assert_null(made);
+        assert_null(created);
         assert_non_null(strstr(error.message, cases[i].message));
         assert_int_equal(error.line, 7);
         assert_int_equal(released, cases[i].released);

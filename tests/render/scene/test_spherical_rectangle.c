@@ -8,9 +8,9 @@ enum { GRID = 400 };
 static aur_rectangle make_rectangle(aur_vector middle) {
     const float c = 0.8f, s = 0.6f;
     const aur_rectangle r = {.x = {c, 0.0f, s}, .y = {-s, 0.0f, c}, .width = 2.0f, .height = 1.0f};
-    aur_rectangle placed = r;
-    placed.corner = aur_vector_add_scaled(aur_vector_add_scaled(middle, -1.0f, r.x), -0.5f, r.y);
-    return placed;
+    aur_rectangle result = r;
+    result.corner = aur_vector_add_scaled(aur_vector_add_scaled(middle, -1.0f, r.x), -0.5f, r.y);
+    return result;
 }
 
 static aur_vector point_of(const aur_rectangle *r, double s, double t) {
@@ -104,8 +104,8 @@ static void densities_add_up(void **state) {
             if (k % 127 != 0)
                 continue;
             float x, y;
-            const float told = aur_seen_rectangle_draw(&seen, s, t, &x, &y);
-            assert_relative(aur_seen_rectangle_density(&seen, x, y), told, 2e-3);
+            const float expected = aur_seen_rectangle_draw(&seen, s, t, &x, &y);
+            assert_relative(aur_seen_rectangle_density(&seen, x, y), expected, 2e-3);
         }
         assert_near(sum, 1.0, 4e-3);
     }
@@ -154,9 +154,9 @@ static void cosines_are_drawn(void **state) {
     double ratios = 0.0;
     for (size_t i = 0; i < 3 * MIDDLE_COUNT * (NORMAL_COUNT - 1); ++i) {
         const aur_vector normal = normals[i % (NORMAL_COUNT - 1)], none = {0};
-        const size_t place = i / (NORMAL_COUNT - 1);
-        const aur_rectangle r =
-            make_rectangle(aur_vector_scale(middles[place % MIDDLE_COUNT], scales[place / MIDDLE_COUNT]));
+        const size_t combination = i / (NORMAL_COUNT - 1);
+        const aur_rectangle r = make_rectangle(
+            aur_vector_scale(middles[combination % MIDDLE_COUNT], scales[combination / MIDDLE_COUNT]));
         double lowest = 1.0, variance, plain_variance;
         for (size_t c = 0; c < 4; ++c) {
             const aur_vector p = point_of(&r, (double)(c & 1), (double)(c >> 1));
@@ -213,9 +213,9 @@ static void lanes_are_the_single_samples(void **state) {
         const aur_vector same =
             aur_vector_add_scaled(aur_vector_add_scaled(r.corner, s, aur_vector_scale(r.x, r.width)), t,
                                   aur_vector_scale(r.y, r.height));
-        const aur_vector told = aur_lane_vector(&drawn.position, k);
+        const aur_vector expected = aur_lane_vector(&drawn.position, k);
         const aur_vector end = aur_surface_target(from.position, same, light.normal, light.rounding);
-        assert_true(end.x == told.x && end.y == told.y && end.z == told.z);
+        assert_true(end.x == expected.x && end.y == expected.y && end.z == expected.z);
         const aur_vector way = aur_vector_subtract(from.position, same);
         const double squared = (double)aur_vector_dot(way, way);
         const double pdf =

@@ -172,15 +172,15 @@ static void check_cover(const outline *o, const aur_face_cut *cut) {
 }
 
 /* The triangles' corners by position, which rotations of the same outline must have too. */
-static void list_places(const double (*points)[3], const aur_face_cut *cut, bool turned,
-                        double (*places)[3]) {
+static void list_corners(const double (*points)[3], const aur_face_cut *cut, bool turned,
+                         double (*corners)[3]) {
     for (size_t i = 0; i < 3 * cut->triangle_count; ++i) {
         const size_t k = turned && i % 3 != 0 ? 3 * (i / 3) + 3 - i % 3 : i;
-        memcpy(places[i], points[cut->indices[k]], sizeof places[i]);
+        memcpy(corners[i], points[cut->indices[k]], sizeof corners[i]);
     }
 }
 
-static double (*first_places)[3], (*places)[3];
+static double (*first_outline)[3], (*listed)[3];
 
 /* Moved into space by three columns, from each first corner and both ways round. */
 static void check_readings(const outline *o, const double to_space[3][3], aur_triangulator *work) {
@@ -198,11 +198,11 @@ static void check_readings(const outline *o, const double to_space[3][3], aur_tr
         assert_true(aur_triangulate(work, o->count, (const double(*)[3])moved.points, &cut));
         assert_int_equal(cut.flaw, AUR_FACE_GOOD);
         assert_relative(cut.area, shoelace(o), 1e-10);
-        list_places((const double(*)[3])moved.points, &cut, turned, shift == 0 ? first_places : places);
+        list_corners((const double(*)[3])moved.points, &cut, turned, shift == 0 ? first_outline : listed);
         triangles = shift == 0 ? cut.triangle_count : triangles;
         assert_int_equal(cut.triangle_count, triangles);
         if (shift > 0)
-            assert_memory_equal(places, first_places, 3 * triangles * sizeof *places);
+            assert_memory_equal(listed, first_outline, 3 * triangles * sizeof *listed);
     }
 }
 
@@ -220,8 +220,8 @@ static void outlines_are_covered_once(void **state) {
                         oblique[3][3] = {{.6, -.64, 1}, {.8, .48, -2}, {0, .6, 3}};
     static outline o;
     aur_triangulator work = {0};
-    first_places = malloc(3 * MOST * sizeof *places);
-    places = malloc(3 * MOST * sizeof *places);
+    first_outline = malloc(3 * MOST * sizeof *listed);
+    listed = malloc(3 * MOST * sizeof *listed);
     for (size_t f = 0; f < sizeof forms / sizeof forms[0]; ++f)
         for (size_t s = 0; s < 4; ++s)
             for (size_t repeat = 0; repeat < (s < 2 ? 20u : 1u); ++repeat) {
@@ -235,8 +235,8 @@ static void outlines_are_covered_once(void **state) {
                 check_readings(&o, upright, &work);
                 check_readings(&o, oblique, &work);
             }
-    free(first_places);
-    free(places);
+    free(first_outline);
+    free(listed);
     aur_triangulator_release(&work);
 }
 

@@ -109,14 +109,15 @@ static void no_value_is_above_its_majorant(void **state) {
     static const char *const wraps[] = {"clamp", "repeat", "mirror"}, *const filters[] = {"trilinear",
                                                                                           "nearest"};
     uint64_t hash = 7;
-    for (size_t trial = 0; trial < 12; ++trial) {
+    for (size_t attempt = 0; attempt < 12; ++attempt) {
         enum { X = 13, Y = 6, Z = 1 };
         static float values[X * Y * Z * 3];
         for (size_t i = 0; i < X * Y * Z * 3; ++i)
             values[i] = aur_draw_unit(&hash) < 0.7f ? 0.0f : aur_draw_unit(&hash);
         size_t size;
         char *const bytes = vol_bytes(X, Y, Z, 3, values, &size);
-        const char *const more[] = {"wrap_mode", wraps[trial % 3], "filter_type", filters[trial % 2], NULL};
+        const char *const more[] = {"wrap_mode", wraps[attempt % 3], "filter_type", filters[attempt % 2],
+                                    NULL};
         aur_volume *volume;
         assert_int_equal(make(size, bytes, more, &volume, NULL), AUR_OK);
         free(bytes);

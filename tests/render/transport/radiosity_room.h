@@ -44,9 +44,9 @@ typedef struct messages {
 } messages;
 
 static inline void keep_message(void *user, const char *message) {
-    messages *const kept = user;
-    ++kept->count;
-    snprintf(kept->text, sizeof kept->text, "%s", message);
+    messages *const received = user;
+    ++received->count;
+    snprintf(received->text, sizeof received->text, "%s", message);
 }
 
 static inline aur_radiosity_options options_of(aur_radiosity_directions directions, size_t bounces) {

@@ -171,20 +171,20 @@ static void to_an_error(void **state) {
         aur_adaptive_options target = {.size = sizeof target};
         aur_adaptive_options_init(&target, NULL);
         aur_renderer *renderer = NULL;
-        aur_adaptive *ask = NULL;
+        aur_adaptive *adaptive = NULL;
         aur_image *image = NULL;
         aur_error error = {0};
         double mean[4];
         target.error = 0.02;
         if (aur_renderer_create(ball, &renderer, &error) != AUR_OK ||
-            aur_adaptive_create(renderer, &options, &target, &ask, &error) != AUR_OK ||
-            aur_adaptive_run(ask, &error) != AUR_OK ||
-            aur_adaptive_develop(ask, false, &image, &error) != AUR_OK ||
+            aur_adaptive_create(renderer, &options, &target, &adaptive, &error) != AUR_OK ||
+            aur_adaptive_run(adaptive, &error) != AUR_OK ||
+            aur_adaptive_develop(adaptive, false, &image, &error) != AUR_OK ||
             aur_image_mean(image, mean, &error) != AUR_OK)
             fail_msg("%s: %s", patterns[i], error.message);
         assert_near(mean[3], 15.0 / 16.0, 4.0 * 0.02 * (15.0 / 16.0) / sqrt(24.0));
         aur_image_destroy(image);
-        aur_adaptive_destroy(ask);
+        aur_adaptive_destroy(adaptive);
         aur_renderer_destroy(renderer);
     }
     aur_scene_destroy(ball);

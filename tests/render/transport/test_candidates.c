@@ -60,7 +60,7 @@ static void candidates_are_chosen_in_proportion(void **state) {
     (void)state;
     enum { NUMBERS = 65536, COUNT = 7 };
     static const float weights[COUNT] = {0.0f, 1.0f, 0.0f, 3.0f, 2.0f, 0.125f, 0.0f};
-    size_t kept[COUNT] = {0};
+    size_t chosen[COUNT] = {0};
     for (size_t n = 0; n < NUMBERS; ++n) {
         float number = ((float)n + 0.5f) / NUMBERS, total = 0.0f;
         size_t last = 0;
@@ -68,10 +68,10 @@ static void candidates_are_chosen_in_proportion(void **state) {
             if (aur_candidate_wins(weights[i], &total, &number))
                 last = i;
         assert_true(total == 6.125f);
-        ++kept[last];
+        ++chosen[last];
     }
     for (size_t i = 0; i < COUNT; ++i)
-        assert_near((double)kept[i], NUMBERS * (double)weights[i] / 6.125, weights[i] > 0.0f ? 3.0 : 0.0);
+        assert_near((double)chosen[i], NUMBERS * (double)weights[i] / 6.125, weights[i] > 0.0f ? 3.0 : 0.0);
     float total = 0.0f, number = 0.0f;
     assert_false(aur_candidate_wins(0.0f, &total, &number));
     assert_true(aur_candidate_weight((aur_vector){NAN, 1.0f, 1.0f}) == 0.0f);

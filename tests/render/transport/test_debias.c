@@ -163,10 +163,10 @@ static void correction_is_the_difference(void **state) {
         aur_image *const single = render_image(renderer, cases[k].form, single_keys);
         double most = 0.0, off = 0.0, least = 0.0;
         for (size_t v = 0; v < 3 * PICTURE * PICTURE; ++v) {
-            const double known = (double)aur_image_data(plain)[v], added = (double)aur_image_data(single)[v];
-            most = fmax(most, fabs(known) + fabs(added));
+            const double biased = (double)aur_image_data(plain)[v], added = (double)aur_image_data(single)[v];
+            most = fmax(most, fabs(biased) + fabs(added));
             least = fmin(least, added);
-            off = fmax(off, fabs(known + added - (double)aur_image_data(whole)[v]));
+            off = fmax(off, fabs(biased + added - (double)aur_image_data(whole)[v]));
         }
         assert_true(least < 0.0);
         if (off > ldexp(most, -16))
@@ -255,11 +255,11 @@ static double variance_over_seeds(const aur_scene *scene, const char *integrator
  * least, would be below a quarter once in ten thousand times (F). */
 static void photons_may_have_a_separate_seed(void **state) {
     (void)state;
-    const char *const own =
+    const char *const separate =
         "finalgather:photons=300,diffuse_samples=256,short_rays=0,direct=none,photon_seed=7";
     const char *const each = "finalgather:photons=300,diffuse_samples=256,short_rays=0,direct=none";
     aur_scene *scene = must_load_body(ROOM);
-    assert_true(variance_over_seeds(scene, own) < 0.25 * variance_over_seeds(scene, each));
+    assert_true(variance_over_seeds(scene, separate) < 0.25 * variance_over_seeds(scene, each));
     aur_scene_destroy(scene);
 }
 

@@ -77,10 +77,10 @@ static void reports_the_visible_share_of_an_emitter(void **state) {
     const moments with = measure(renderer, "path:max_depth=1");
     const moments without = measure(renderer, "path:max_depth=1,lamp_rays=0");
     const double z = (with.mean - emitter) / sqrt(with.variance / SEEDS);
-    const double own = (without.mean - emitter) / sqrt(without.variance / SEEDS);
+    const double z_without = (without.mean - emitter) / sqrt(without.variance / SEEDS);
     print_message("%.4f and %.3f of %.4f, z %.2f and %.2f, variances %.3g of %.3g\n", with.mean, without.mean,
-                  emitter, z, own, with.variance, without.variance);
-    assert_true(fabs(z) < 4.0 && fabs(own) < 4.0); /* one time in 8,000 of normal values */
+                  emitter, z, z_without, with.variance, without.variance);
+    assert_true(fabs(z) < 4.0 && fabs(z_without) < 4.0); /* one time in 8,000 of normal values */
     assert_true(with.variance < 0.05 * without.variance);
     /* The light of paths is the same, whichever rays count the directly visible emission. */
     const moments paths = measure(renderer, "path"), plain = measure(renderer, "path:lamp_rays=0");

@@ -220,10 +220,10 @@ static aur_result same_set(const aur_gather_settings *options, size_t base, size
 static aur_result keep(const aur_gather_settings *options, size_t base, const aur_gather_directions *pattern,
                        void **state, aur_error *error) {
     (void)options, (void)base, (void)error;
-    aur_gather_directions *const kept = malloc(sizeof *kept);
-    assert_non_null(kept);
-    *kept = *pattern;
-    *state = kept;
+    aur_gather_directions *const stored = malloc(sizeof *stored);
+    assert_non_null(stored);
+    *stored = *pattern;
+    *state = stored;
     return AUR_OK;
 }
 
@@ -250,16 +250,16 @@ static void caller_gathers(void **state) {
     (void)state;
     static const aur_gather_method method = {
         .begin = always, .choose = same_set, .prepare = keep, .release = free, .gather = gather_plainly};
-    aur_gather_integrator own = lab_finalgather;
-    own.row.name = "own";
-    own.method = &method;
+    aur_gather_integrator copy = lab_finalgather;
+    copy.row.name = "own";
+    copy.method = &method;
 #define KEYS ":photons=500,diffuse_samples=24,glossy_samples=12,decorrelation=none,clip=false,edges=0,split=1"
     aur_image *images[2];
     assert_int_equal(render("finalgather-lab" KEYS, &lab_finalgather, &images[0], NULL), AUR_OK);
-    assert_int_equal(render("own" KEYS, &own, &images[1], NULL), AUR_OK);
+    assert_int_equal(render("own" KEYS, &copy, &images[1], NULL), AUR_OK);
 #undef KEYS
     aur_image *none = NULL;
-    assert_int_equal(render("own:pattern=sobol,rotations=0", &own, &none, NULL), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(render("own:pattern=sobol,rotations=0", &copy, &none, NULL), AUR_ERROR_UNSUPPORTED);
     assert_null(none);
     assert_int_equal(aur_image_channel_count(images[0]), 3);
     assert_int_equal(aur_image_channel_count(images[1]), 4);

@@ -90,7 +90,7 @@ static void tables_are_solves(void **state) {
         for (size_t step = 0; step < 18; ++step) {
             const double angle = (0.4 + 5.0 * (double)step) * PI / 180.0;
             float weights[2 * SIZE];
-            double xyz[3 * SIZE], own[SIZE], equal[SIZE] = {0}, exact[2 * SIZE];
+            double xyz[3 * SIZE], from_table[SIZE], equal[SIZE] = {0}, exact[2 * SIZE];
             surface_point(pair, step % ROTATIONS, 0, angle, step % 2 == 1, xyz);
             aur_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
             aur_potential *const lobes[2] = {lobe_at(1.0, 0.0, false), lobe_at(m, angle, cases[c].clipped)};
@@ -102,8 +102,8 @@ static void tables_are_solves(void **state) {
                 size_t visible = 0;
                 double sum = 0.0;
                 for (size_t i = 0; i < SIZE; ++i) {
-                    own[i] = (double)weights[lobe * SIZE + i] / mass;
-                    sum += own[i];
+                    from_table[i] = (double)weights[lobe * SIZE + i] / mass;
+                    sum += from_table[i];
                     const bool mine = lobe == 0 ? i < DIFFUSE : i >= DIFFUSE;
                     visible += mine && (!cases[c].clipped || xyz[3 * i + 2] >= 0.0);
                 }
@@ -114,7 +114,7 @@ static void tables_are_solves(void **state) {
                     else
                         equal[i] = 0.0;
                 assert_near(sum, 1.0, 2e-4); /* of the mass's interpolation */
-                looked_up_total += worst_case(xyz, own, lobes[lobe]);
+                looked_up_total += worst_case(xyz, from_table, lobes[lobe]);
                 solved_total += worst_case(xyz, exact + lobe * SIZE, lobes[lobe]);
                 equal_total += worst_case(xyz, equal, lobes[lobe]);
             }

@@ -65,11 +65,11 @@ static void blocks_make_finer_patterns(void **state) {
         assert_int_equal(nested.copies, AUR_NESTED_COUNT);
         for (size_t copies = 4; copies <= AUR_NESTED_COUNT; copies *= 4) {
             aur_gather_rule peer = must_make(copies * counts[c], false);
-            const double own = square_error(&nested, copies, truth);
+            const double nested_square = square_error(&nested, copies, truth);
             const double square = square_error(&peer, 1, truth);
-            if (own > 2.0 * square)
+            if (nested_square > 2.0 * square)
                 fail_msg("%zu shifts of %zu directions: error %g, of one set %g", copies, counts[c],
-                         sqrt(own), sqrt(square));
+                         sqrt(nested_square), sqrt(square));
             aur_gather_rule_release(&peer);
         }
         aur_gather_rule_release(&nested);
@@ -119,12 +119,12 @@ static void pixels_have_their_numbers(void **state) {
 static void blocks_have_distinct_numbers(void **state) {
     (void)state;
     enum { SEEDS = 6400 };
-    double alike = 0.0, same = 0.0;
+    double similar = 0.0, same = 0.0;
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-        alike += aur_nested_number(seed, 1, 2) >> 2 == aur_nested_number(seed, 5, 2) >> 2 ? 1.0 : 0.0;
+        similar += aur_nested_number(seed, 1, 2) >> 2 == aur_nested_number(seed, 5, 2) >> 2 ? 1.0 : 0.0;
         same += aur_nested_number(seed, 1, 2) == aur_nested_number(seed, 1, 10) ? 1.0 : 0.0;
     }
-    assert_near(alike, SEEDS / 16.0, 5.0 * sqrt(SEEDS / 16.0 * 15.0 / 16.0));
+    assert_near(similar, SEEDS / 16.0, 5.0 * sqrt(SEEDS / 16.0 * 15.0 / 16.0));
     assert_near(same, SEEDS / 64.0, 5.0 * sqrt(SEEDS / 64.0 * 63.0 / 64.0));
 }
 

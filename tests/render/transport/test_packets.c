@@ -96,8 +96,8 @@ static void packets_preserve_rays_and_lanes(void **state) {
     const aur_ray ray = {.origin = {1, 2, 3}, .nearest = 0.5f, .direction = {0, 0, 1}, .farthest = 7.0f};
     aur_packet_set(&packet, 5, &ray);
     assert_int_equal(aur_lanes_set(packet.valid), 1u << 5);
-    const aur_ray kept = aur_packet_ray(&packet, 5);
-    assert_memory_equal(&kept, &ray, sizeof ray);
+    const aur_ray stored = aur_packet_ray(&packet, 5);
+    assert_memory_equal(&stored, &ray, sizeof ray);
     aur_packet_set_lanes(&packet, 0x8421);
     assert_int_equal(aur_lanes_set(packet.valid), 0x8421);
     aur_packet_empty(&packet);

@@ -152,14 +152,14 @@ static void expect_share(const char *message, uint64_t count, uint64_t paths) {
 static void open_scenes_are_reported(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(FIVE_WALLS);
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 1);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 10000);
     assert_in_range(describe(radiosity).lost, 2000, 5000);
-    assert_int_equal(kept.count, 1);
-    assert_non_null(strstr(kept.text, "left the scene: it is open"));
-    expect_share(kept.text, describe(radiosity).lost, 10000);
+    assert_int_equal(received.count, 1);
+    assert_non_null(strstr(received.text, "left the scene: it is open"));
+    expect_share(received.text, describe(radiosity).lost, 10000);
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }
@@ -167,14 +167,14 @@ static void open_scenes_are_reported(void **state) {
 static void backs_are_reported(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM "<shape type='rectangle'><bsdf type='diffuse'/></shape>");
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
     assert_in_range(describe(radiosity).behind, 100, 900);
-    assert_int_equal(kept.count, 1);
-    assert_non_null(strstr(kept.text, "back of a one-sided surface"));
-    expect_share(kept.text, describe(radiosity).behind, 1000);
+    assert_int_equal(received.count, 1);
+    assert_non_null(strstr(received.text, "back of a one-sided surface"));
+    expect_share(received.text, describe(radiosity).behind, 1000);
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }
@@ -184,14 +184,14 @@ static void bright_albedos_are_reported(void **state) {
     aur_scene *const scene = must_load_body("<shape type='cube'>" INSIDE
                                             "<bsdf type='diffuse'><rgb name='reflectance' value='1'/></bsdf>"
                                             "<emitter type='area'/></shape>");
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
     assert_true(describe(radiosity).tail == 1.0 && describe(radiosity).largest_albedo == 1.0);
-    assert_int_equal(kept.count, 1);
-    assert_non_null(strstr(kept.text, "scene.xml:2"));
-    assert_non_null(strstr(kept.text, "albedo of 1"));
+    assert_int_equal(received.count, 1);
+    assert_non_null(strstr(received.text, "scene.xml:2"));
+    assert_non_null(strstr(received.text, "albedo of 1"));
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }
@@ -203,18 +203,18 @@ static void bright_albedos_are_reported(void **state) {
 /* A box that stands exactly on the floor loses the emission of its underside; one just above it nothing. */
 static void coincident_surfaces_are_reported(void **state) {
     (void)state;
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_scene *const standing = must_load_uncut(BOX("-0.6"));
     aur_radiosity *const lossy = must_create(standing, &options);
     assert_in_range(describe(lossy).coincident, 2, 4);
-    assert_int_equal(kept.count, 1);
+    assert_int_equal(received.count, 1);
     char said[64];
     snprintf(said, sizeof said, "radiosity: %d pairs of triangles lie on each other",
              (int)describe(lossy).coincident);
-    assert_non_null(strstr(kept.text, said));
-    assert_non_null(strstr(kept.text, "lie on each other"));
+    assert_non_null(strstr(received.text, said));
+    assert_non_null(strstr(received.text, "lie on each other"));
     assert_int_equal(aur_radiosity_trace(lossy, 10000, NULL), AUR_OK);
     assert_in_range(describe(lossy).lost, 100, 5000);
     aur_radiosity_destroy(lossy);
@@ -311,9 +311,9 @@ static void vanishing_lights_are_left_out(void **state) {
 static void powers_beyond_the_sums_are_reported(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 100), *const whole =
                                                                            must_trace(scene, &options, 100);
     double *const start = radiosity->walk.start[0];
@@ -327,11 +327,11 @@ static void powers_beyond_the_sums_are_reported(void **state) {
     assert_int_equal(aur_radiosity_trace(radiosity, 200, &error), AUR_OK);
     assert_int_equal(aur_radiosity_trace(whole, 200, &error), AUR_OK);
     assert_same(whole, radiosity);
-    assert_int_equal(kept.count, 0);
+    assert_int_equal(received.count, 0);
     start[0] = 0x1p63;
     assert_int_equal(aur_radiosity_trace(radiosity, 300, &error), AUR_OK);
-    assert_int_equal(kept.count, 1);
-    assert_non_null(strstr(kept.text, "is cut off"));
+    assert_int_equal(received.count, 1);
+    assert_non_null(strstr(received.text, "is cut off"));
     aur_radiosity_destroy(radiosity);
     aur_radiosity_destroy(whole);
     aur_scene_destroy(scene);
@@ -342,12 +342,12 @@ static void other_materials_are_reported(void **state) {
     aur_scene *const scene =
         must_load_body(ROOM "<shape type='cube'><transform name='to_world'><scale value='0.2'/>"
                             "</transform><bsdf type='plastic'/></shape>");
-    messages kept = {0};
+    messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &kept};
+    options.warnings = (aur_warnings){keep_message, &received};
     aur_radiosity_destroy(must_create(scene, &options));
-    assert_int_equal(kept.count, 1);
-    assert_non_null(strstr(kept.text, "only the diffuse part of the material 'plastic'"));
+    assert_int_equal(received.count, 1);
+    assert_non_null(strstr(received.text, "only the diffuse part of the material 'plastic'"));
     aur_scene_destroy(scene);
 }
 

@@ -6,7 +6,7 @@
 static void error_bar_is_honest(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
-    double told = 0.0, found = 0.0;
+    double reported = 0.0, found = 0.0;
     for (uint64_t seed = 0; seed < 16; ++seed) {
         aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 29);
         options.scramble = AUR_SCRAMBLE_OWEN;
@@ -18,7 +18,7 @@ static void error_bar_is_honest(void **state) {
         double squares = 0.0;
         for (size_t i = 0; i < count; ++i) {
             found += (results[i].radiance[0] - 0.5) * (results[i].radiance[0] - 0.5);
-            told += results[i].standard_error[0] * results[i].standard_error[0];
+            reported += results[i].standard_error[0] * results[i].standard_error[0];
             for (size_t c = 0; c < 3; ++c) {
                 const double power_error = results[i].standard_error[c] * 2.0 * AUR_PI * results[i].area;
                 squares += power_error * power_error * results[i].area;
@@ -27,7 +27,7 @@ static void error_bar_is_honest(void **state) {
         assert_relative(describe(radiosity).error, sqrt(squares / 24.0) / (sqrt(3.0) * 0.25 * 24.0), 1e-6);
         aur_radiosity_destroy(radiosity);
     }
-    assert_relative(sqrt(told), sqrt(found), 0.3);
+    assert_relative(sqrt(reported), sqrt(found), 0.3);
     aur_scene_destroy(scene);
 }
 

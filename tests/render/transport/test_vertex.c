@@ -79,8 +79,8 @@ static void lobes_with_and_without_a_map_are_all(void **state) {
     (void)state;
     enum { DRAWS = 20000 };
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
-        material made = make_material(&material_rows[m]);
-        const aur_surface surface = surface_of(made.bsdf);
+        material built = make_material(&material_rows[m]);
+        const aur_surface surface = surface_of(built.bsdf);
         for (size_t v = 0; v < 2; ++v) {
             const aur_vector wo = aur_vector_normalize((aur_vector){0.3f, -0.5f, v == 0 ? 0.6f : -0.9f});
             const aur_shading shading = aur_shading_at(&surface, wo);
@@ -98,7 +98,7 @@ static void lobes_with_and_without_a_map_are_all(void **state) {
                              others.sum[k], all.sum[k]);
             }
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 
@@ -109,8 +109,8 @@ static void directions_have_the_density_of_evaluation(void **state) {
     for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
         if ((material_rows[m].flags & NARROW) != 0)
             continue;
-        material made = make_material(&material_rows[m]);
-        const aur_surface surface = surface_of(made.bsdf);
+        material built = make_material(&material_rows[m]);
+        const aur_surface surface = surface_of(built.bsdf);
         const aur_shading shading =
             aur_shading_at(&surface, aur_vector_normalize((aur_vector){0.3f, -0.5f, 0.6f}));
         uint64_t hash = m;
@@ -125,7 +125,7 @@ static void directions_have_the_density_of_evaluation(void **state) {
                 fail_msg("%s, lobes %zu: %g is not %g", material_rows[m].text, i % 3, (double)pdf,
                          (double)sample.pdf);
         }
-        drop_material(&made);
+        drop_material(&built);
     }
 }
 

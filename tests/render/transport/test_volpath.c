@@ -169,12 +169,12 @@ static void furnaces_are_right_in_the_mean(void **state) {
 
 /* A point light of intensity I near a ray: the single-scattered radiance along the ray from 0 to `length` is
  * the integral of albedo sigma p(cos) I exp(-sigma (t + r)) / r^2, here by Simpson's rule. */
-static double single_scattering(double sigma, double albedo, double g, double along, double beside,
+static double single_scattering(double sigma, double albedo, double g, double along, double lateral,
                                 double length) {
     enum { STEPS = 20000 };
     double sum = 0.0;
     for (size_t i = 0; i <= STEPS; ++i) {
-        const double t = length * (double)i / STEPS, r = hypot(along - t, beside);
+        const double t = length * (double)i / STEPS, r = hypot(along - t, lateral);
         /* Light goes from the point to the ray, and on against the ray's direction. */
         const double cosine = (along - t) / r;
         const double phase =

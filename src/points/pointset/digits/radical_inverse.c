@@ -18,14 +18,14 @@ void aur_digit_sum_put(aur_digit_sum *sum, uint32_t digit) {
     const uint32_t base = sum->base;
     uint32_t changed = digit;
     if (sum->digits == AUR_DIGITS_SHIFT) {
-        changed = (digit + below(aur_hash2(sum->key, sum->place), base)) % base;
+        changed = (digit + below(aur_hash2(sum->key, sum->digit_index), base)) % base;
     } else if (sum->digits == AUR_DIGITS_PERMUTE) {
-        changed = permute(digit, base, aur_hash2(sum->key, sum->place));
+        changed = permute(digit, base, aur_hash2(sum->key, sum->digit_index));
     } else if (sum->digits == AUR_DIGITS_NESTED) {
         changed = permute(digit, base, sum->prefix);
         sum->prefix = aur_hash2(sum->prefix, digit);
     }
-    ++sum->place;
+    ++sum->digit_index;
     sum->numerator = sum->numerator * base + changed;
     sum->denominator *= base;
 }
@@ -38,7 +38,7 @@ size_t aur_digit_sum_places(uint32_t base) {
     aur_digit_sum sum = aur_digit_sum_begin(base, AUR_DIGITS_PLAIN, 0);
     while (aur_digit_sum_has_room(&sum))
         aur_digit_sum_put(&sum, 0);
-    return sum.place;
+    return sum.digit_index;
 }
 
 double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uint64_t key) {

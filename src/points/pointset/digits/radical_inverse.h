@@ -26,7 +26,7 @@ static inline aur_digits aur_digits_of(aur_scramble scramble) {
 typedef struct aur_digit_sum {
     uint32_t base; /* a prime below AUR_RADICAL_BASE_LIMIT */
     aur_digits digits;
-    uint32_t place;
+    uint32_t digit_index;
     uint64_t key;
     uint64_t prefix; /* a hash of the digits so far */
     uint64_t numerator, denominator;

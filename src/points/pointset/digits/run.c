@@ -51,11 +51,11 @@ static void make_table(aur_radical_run *r, uint64_t count) {
     r->width = r->span < AUR_RUN_TABLE ? (size_t)r->span : AUR_RUN_TABLE;
     r->table[0] = 0.0;
     uint64_t unit = r->denominator;
-    for (size_t made = 1; made < r->width;) {
+    for (size_t filled = 1; filled < r->width;) {
         unit /= r->base;
-        const size_t before = made;
-        for (; made < r->base * before && made < r->width; ++made)
-            r->table[made] = r->table[made % before] + (double)(int64_t)(made / before * unit);
+        const size_t before = filled;
+        for (; filled < r->base * before && filled < r->width; ++filled)
+            r->table[filled] = r->table[filled % before] + (double)(int64_t)(filled / before * unit);
     }
 }
 
@@ -100,11 +100,11 @@ bool aur_run_of_radical_inverse(uint32_t base, uint64_t first, uint64_t last, au
 static void next_ascending(aur_run *run, size_t count, double *out) {
     aur_ascending_run *const r = &run->of.ascending;
     while (count > 0) {
-        if (r->taken == r->made) {
-            r->made = aur_runs(SIZE_MAX)->ascent(&r->ascent, AUR_RUN_VALUES, r->values);
+        if (r->taken == r->computed) {
+            r->computed = aur_runs(SIZE_MAX)->ascent(&r->ascent, AUR_RUN_VALUES, r->values);
             r->taken = 0;
         }
-        const size_t part = r->made - r->taken < count ? r->made - r->taken : count;
+        const size_t part = r->computed - r->taken < count ? r->computed - r->taken : count;
         memcpy(out, r->values + r->taken, part * sizeof *out);
         r->taken += part;
         out += part;
@@ -115,7 +115,7 @@ static void next_ascending(aur_run *run, size_t count, double *out) {
 void aur_run_of_ascent(const aur_ascent *ascent, aur_run *run) {
     run->next = next_ascending;
     run->of.ascending.ascent = *ascent;
-    run->of.ascending.taken = run->of.ascending.made = 0;
+    run->of.ascending.taken = run->of.ascending.computed = 0;
 }
 
 void aur_run_pairs(aur_run *x, aur_run *y, size_t count, double *out) {
@@ -127,16 +127,16 @@ void aur_run_pairs(aur_run *x, aur_run *y, size_t count, double *out) {
     const size_t start = aur_output_stream_start(count, out);
     size_t held = 0; /* computed and not written, since they are not a multiple of 64 bytes */
     size_t done = 0;
-    for (size_t made = 0; made < count;) {
-        const size_t part = count - made < PART ? count - made : PART;
+    for (size_t written = 0; written < count;) {
+        const size_t part = count - written < PART ? count - written : PART;
         x->next(x, part, a + held);
         y->next(y, part, b + held);
-        made += part;
+        written += part;
         held += part;
         const size_t before = done < start && start < held ? start - done : 0;
         kernels->pairs(before, a, b, false, out + 2 * done);
         const size_t rest = held - before;
-        const size_t now = made < count && start < count ? rest / 4 * 4 : rest;
+        const size_t now = written < count && start < count ? rest / 4 * 4 : rest;
         kernels->pairs(now, a + before, b + before, start < count, out + 2 * (done + before));
         done += before + now;
         held = rest - now;

@@ -20,7 +20,7 @@ typedef struct aur_radical_run {
 /* Values of an ascent that are computed and not used yet. */
 typedef struct aur_ascending_run {
     aur_ascent ascent;
-    size_t taken, made;
+    size_t taken, computed;
     double values[AUR_RUN_VALUES];
 } aur_ascending_run;
 

@@ -90,12 +90,12 @@ static aur_result call(const aur_set_callback *callback, const aur_user_request 
     aur_error unseen = {0};
     const size_t dimension = coordinates_of(callback->domain, request->dimension);
     const size_t count = request->count, columns = dimension + callback->weighted;
-    aur_points *made = NULL;
+    aur_points *generated = NULL;
     aur_result result =
-        aur_points_create(callback->domain, count, dimension, callback->weighted, &made, error);
+        aur_points_create(callback->domain, count, dimension, callback->weighted, &generated, error);
     if (result == AUR_OK)
-        result = callback->generate(callback->user, count, dimension, made->coordinates, made->weights,
-                                    error != NULL ? error : &unseen);
+        result = callback->generate(callback->user, count, dimension, generated->coordinates,
+                                    generated->weights, error != NULL ? error : &unseen);
     *matrix = (aur_matrix){.row_count = count,
                            .column_count = columns,
                            .declared = true,
@@ -104,11 +104,12 @@ static aur_result call(const aur_set_callback *callback, const aur_user_request 
     if (result == AUR_OK && (matrix->values = malloc(count * columns * sizeof(double))) == NULL)
         result = aur_fail_memory(error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        memcpy(matrix->values + i * columns, made->coordinates + i * dimension, dimension * sizeof(double));
+        memcpy(matrix->values + i * columns, generated->coordinates + i * dimension,
+               dimension * sizeof(double));
         if (callback->weighted)
-            matrix->values[i * columns + dimension] = made->weights[i];
+            matrix->values[i * columns + dimension] = generated->weights[i];
     }
-    aur_points_destroy(made);
+    aur_points_destroy(generated);
     return result;
 }
 

@@ -249,8 +249,8 @@ static aur_result prepare_cbc(aur_pointset *set, aur_parameters *parameters, aur
     if (!power && set->size > PLAIN_SIZE)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set 'cbc': sizes above %d must be powers of 2, not %llu",
                         PLAIN_SIZE, (unsigned long long)set->size);
-    const bool made = (power ? search_powers : search_all)(set->size, set->dimension, p.decay, set->data);
-    return made ? AUR_OK : aur_fail_memory(error);
+    const bool good = (power ? search_powers : search_all)(set->size, set->dimension, p.decay, set->data);
+    return good ? AUR_OK : aur_fail_memory(error);
 }
 
 static aur_result prepare_korobov(aur_pointset *set, aur_parameters *parameters, aur_error *error) {

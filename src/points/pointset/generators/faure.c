@@ -71,12 +71,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "set 'faure': base must be a prime of at least the dimension %zu, such as %u, not %u",
                         set->dimension, (unsigned)smallest_base(set->dimension), (unsigned)base);
-    const size_t places = aur_digit_sum_places((uint32_t)base);
-    aur_digital_rule *const rule = aur_digital_rule_create((uint32_t)base, places, places, set->dimension);
+    const size_t digit_count = aur_digit_sum_places((uint32_t)base);
+    aur_digital_rule *const rule =
+        aur_digital_rule_create((uint32_t)base, digit_count, digit_count, set->dimension);
     if (rule == NULL)
         return aur_fail_memory(error);
     for (size_t d = 0; d < set->dimension; ++d) {
-        uint16_t *const matrix = rule->digits + d * places * places;
+        uint16_t *const matrix = rule->digits + d * digit_count * digit_count;
         pascal_power(rule, (uint32_t)d, matrix);
         if (p.scramble == SCRAMBLE_LOWER_TRIANGULAR)
             scramble_lower(rule, aur_hash3(UINT64_C(0x6661757265), set->seed, d), matrix);

@@ -130,8 +130,8 @@ static aur_result make_rule(aur_pointset *set, const reader *r) {
         return aur_fail_at(r->error, (aur_location){.file = r->path}, AUR_ERROR_ARGUMENT,
                            "matrices of %zu columns make at most %" PRIu64 " points, not %" PRIu64,
                            r->column_count, limit, set->size);
-    const size_t places = aur_digit_sum_places(r->base);
-    const size_t rows = r->row_count < places ? r->row_count : places;
+    const size_t digit_count = aur_digit_sum_places(r->base);
+    const size_t rows = r->row_count < digit_count ? r->row_count : digit_count;
     aur_digital_rule *const rule = aur_digital_rule_create(r->base, rows, r->column_count, set->dimension);
     if (rule == NULL)
         return aur_fail_memory(r->error);

@@ -109,13 +109,13 @@ static bool make_points(uint64_t seed, unsigned digits, pass *p) {
     p->x[0] = (uint32_t)aur_hash3(seed, 0, 0) & 0xffff;
     p->y[0] = (uint32_t)aur_hash3(seed, 0, 1) & 0xffff;
     for (p->digits = 1; p->digits <= digits; ++p->digits) {
-        bool made = false;
-        for (unsigned attempt = 0; attempt < ATTEMPTS && !made; ++attempt) {
+        bool doubled = false;
+        for (unsigned attempt = 0; attempt < ATTEMPTS && !doubled; ++attempt) {
             p->seed = aur_hash4(seed, p->digits, attempt, 2);
             p->draws = 0;
-            made = double_points(p);
+            doubled = double_points(p);
         }
-        if (!made)
+        if (!doubled)
             return false;
     }
     return true;

@@ -64,21 +64,21 @@ static void clip(polygon *p, aur_point2 normal, double offset, uint32_t neighbou
     memcpy(old.distances, p->distances, p->count * sizeof old.distances[0]);
     const size_t before = out == 0 ? last : out - 1;
     const size_t after = in == 0 ? last : in - 1;
-    size_t made = 0;
+    size_t clipped = 0;
     for (size_t k = in;; k = k == last ? 0 : k + 1) {
-        p->vertices[made] = old.vertices[k];
-        p->neighbours[made] = old.neighbours[k];
-        p->distances[made++] = old.distances[k];
+        p->vertices[clipped] = old.vertices[k];
+        p->neighbours[clipped] = old.neighbours[k];
+        p->distances[clipped++] = old.distances[k];
         if (k == before)
             break;
     }
-    p->vertices[made] = crossing(old.vertices[before], old.vertices[out], sides[before], sides[out]);
-    p->neighbours[made] = neighbour;
-    p->distances[made++] = distance;
-    p->vertices[made] = crossing(old.vertices[after], old.vertices[in], sides[after], sides[in]);
-    p->neighbours[made] = old.neighbours[after];
-    p->distances[made++] = old.distances[after];
-    p->count = made;
+    p->vertices[clipped] = crossing(old.vertices[before], old.vertices[out], sides[before], sides[out]);
+    p->neighbours[clipped] = neighbour;
+    p->distances[clipped++] = distance;
+    p->vertices[clipped] = crossing(old.vertices[after], old.vertices[in], sides[after], sides[in]);
+    p->neighbours[clipped] = old.neighbours[after];
+    p->distances[clipped++] = old.distances[after];
+    p->count = clipped;
     measure_reach(p);
 }
 

@@ -67,15 +67,15 @@ static aur_result generate(const work *w, size_t count, size_t replicate, aur_er
     aur_pointset_options options = plain;
     options.seed = aur_hash4(o->seed, 0x65737469, w->report.levels, replicate);
     options.scramble = AUR_SCRAMBLE_OWEN;
-    aur_pointset *made = NULL;
-    aur_result result = aur_pointset_create(set, &options, &made, error);
+    aur_pointset *generator = NULL;
+    aur_result result = aur_pointset_create(set, &options, &generator, error);
     if (result == AUR_ERROR_UNSUPPORTED) {
         options.scramble = AUR_SCRAMBLE_SHIFT;
-        result = aur_pointset_create(set, &options, &made, error);
+        result = aur_pointset_create(set, &options, &generator, error);
     }
     if (result == AUR_OK)
-        result = aur_pointset_points(made, 0, count, count * o->dimension, w->points, error);
-    aur_pointset_destroy(made);
+        result = aur_pointset_points(generator, 0, count, count * o->dimension, w->points, error);
+    aur_pointset_destroy(generator);
     return result;
 }
 

@@ -60,13 +60,13 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
     return AUR_OK;
 }
 
-typedef struct place {
+typedef struct located_point {
     const double *at;
     size_t dimension, index;
-} place;
+} located_point;
 
 static int compare(const void *a, const void *b) {
-    const place *const p = a, *const q = b;
+    const located_point *const p = a, *const q = b;
     for (size_t d = 0; d < p->dimension; ++d)
         if (p->at[d] != q->at[d])
             return p->at[d] < q->at[d] ? -1 : 1;
@@ -81,13 +81,13 @@ static bool hidden(const aur_exact_options *o, const double *direction) {
 /* Fills near[count]: the given weights, else equal ones that coincident points share. Returns the number of
  * distinct points with weight. */
 static size_t share(size_t count, size_t dimension, const double *points, const aur_exact_options *o,
-                    place *order, double *near) {
+                    located_point *order, double *near) {
     const double *const given = o->near;
     size_t used = 0, distinct = 0;
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
         if (!hidden(o, points + dimension * i) && (given == NULL || given[i] > 0.0))
-            order[used++] = (place){points + dimension * i, dimension, i};
+            order[used++] = (located_point){points + dimension * i, dimension, i};
     qsort(order, used, sizeof *order, compare);
     for (size_t first = 0, next; first < used; first = next) {
         for (next = first + 1; next < used && compare(&order[first], &order[next]) == 0; ++next) {
@@ -190,15 +190,16 @@ static double work_left(const ladder *l, double steps) {
         return INFINITY;
     const double usual = bracketed ? 0.5 * (l->steps[0] + l->steps[1]) : USUAL_STEPS;
     const double middle = bracketed ? 0.5 * (double)(l->low + l->high) : (double)l->degree;
-    double trials = bracketed ? fmax(log2((double)(l->high - l->low)) - 1.0, 0.0) : USUAL_TRIALS, last = 0.0;
+    double attempts = bracketed ? fmax(log2((double)(l->high - l->low)) - 1.0, 0.0) : USUAL_TRIALS,
+           last = 0.0;
     if (l->degree > l->high)
-        trials = 0.0;
+        attempts = 0.0;
     for (size_t more = l->high + 1; bracketed && more <= l->high + 2 && more < l->ceiling; ++more)
         last += l->failed[more] || more <= l->degree ? 0.0 : functions_of((double)more) * l->steps[1];
     if (l->high > l->low + 1) /* one of them may be the degree `high`, which is done */
         last *= 0.75;
     return functions_of((double)l->degree) * fmax(usual - steps, 0.25 * usual) +
-           functions_of(middle) * trials * usual + last;
+           functions_of(middle) * attempts * usual + last;
 }
 
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -411,7 +412,7 @@ static aur_result weigh_orbits(size_t count, const double *xyz, const aur_exact_
 static aur_result weigh(size_t count, const double *points, const aur_exact_options *o, double lowest,
                         aur_exact_space *space, double *weights, aur_exact_report *report, aur_error *error) {
     double *const storage = calloc(6 * count, sizeof *storage);
-    place *const order = malloc(count * sizeof *order);
+    located_point *const order = malloc(count * sizeof *order);
     aur_result result = AUR_OK;
     if (storage == NULL || order == NULL) {
         result = aur_fail_memory(error);

@@ -17,7 +17,7 @@ typedef struct measured {
     const aur_exact_nodes *nodes;
     aur_progress progress;
     size_t points, all;                    /* points with weight; points and nodes */
-    size_t *place;                         /* index of each point in the caller's array */
+    size_t *index;                         /* index of each point in the caller's array */
     double *near, *ratio, *best, *scratch; /* of points; `ratio`: weights divided by near */
     double *depth, *across,
         *aside;    /* of all: 1 - cos to the lobe's centre, and the two perpendicular coordinates */
@@ -160,7 +160,7 @@ static void fill_frame(measured *m, const double *xyz) {
     for (size_t i = 0; i < m->all; ++i) {
         const bool node = i >= m->points;
         double u[3];
-        memcpy(u, node ? m->nodes->xyz + 3 * (i - m->points) : xyz + 3 * m->place[i], sizeof u);
+        memcpy(u, node ? m->nodes->xyz + 3 * (i - m->points) : xyz + 3 * m->index[i], sizeof u);
         aur_normalize3(u);
         const double from[3] = {u[0] - axis[0], u[1] - axis[1], u[2] - axis[2]};
         m->depth[i] = 0.5 * aur_dot3(from, from);
@@ -189,11 +189,11 @@ static aur_result open_measured(const aur_exact_system *system, const double *xy
     m->integral = m->aside + all;
     m->length = m->integral + row_count;
     m->product = m->length + row_count;
-    m->place = (size_t *)(void *)(m->product + row_count);
+    m->index = (size_t *)(void *)(m->product + row_count);
     for (size_t i = 0; i < count; ++i) {
         if (system->near[i] > 0.0) {
             m->near[m->points] = system->near[i];
-            m->place[m->points++] = i;
+            m->index[m->points++] = i;
         }
     }
     memset(m->ratio, 0, count * sizeof *m->ratio);
@@ -222,7 +222,7 @@ static aur_result make_room(const measured *m, size_t l, aur_error *error) {
 static void spread(const measured *m, const double *ratio, size_t count, double *weights) {
     memset(weights, 0, count * sizeof *weights);
     for (size_t i = 0; i < m->points; ++i)
-        weights[m->place[i]] = m->near[i] * ratio[i];
+        weights[m->index[i]] = m->near[i] * ratio[i];
 }
 
 static aur_result solve(const measured *m, const aur_exact_system *system, size_t degree, bool search,

@@ -134,10 +134,10 @@ static void analyse(const aur_basis *basis, const aur_polar_points *points, size
                 c.a[i] = w[i] * c.cosine[i];
                 c.b[i] = w[i] * c.azimuth_sine[i];
             }
-            const size_t place = aur_basis_at(basis->degree, m);
+            const size_t order_start = aur_basis_at(basis->degree, m);
             const aur_transform_order order = {
-                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, {c.a}, {c.b}};
-            analyse_kinds(&order, 1, sums + 2 * place, room);
+                basis->degree + 1 - m, basis->steps + order_start, c.count, c.z, c.start, {c.a}, {c.b}};
+            analyse_kinds(&order, 1, sums + 2 * order_start, room);
         }
     }
 }
@@ -182,10 +182,10 @@ static void synthesise(const aur_basis *basis, const aur_polar_points *points, s
         for (size_t m = 0; m <= basis->degree; ++m) {
             if (m > 0)
                 next_order(&c, basis->start[m]);
-            const size_t place = aur_basis_at(basis->degree, m);
+            const size_t order_start = aur_basis_at(basis->degree, m);
             const aur_transform_order order = {
-                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, {c.a}, {c.b}};
-            synthesise_kinds(&order, 1, coefficients + 2 * place);
+                basis->degree + 1 - m, basis->steps + order_start, c.count, c.z, c.start, {c.a}, {c.b}};
+            synthesise_kinds(&order, 1, coefficients + 2 * order_start);
             for (size_t i = 0; i < c.count; ++i)
                 sum[i] += c.a[i] * c.cosine[i] + c.b[i] * c.azimuth_sine[i];
         }

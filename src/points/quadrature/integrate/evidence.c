@@ -31,9 +31,9 @@ static double select_rank(size_t count, double *values, size_t k) {
                 ++i;
                 continue;
             }
-            const size_t place = value < pivot ? below : above - 1;
-            values[i] = values[place];
-            values[place] = value;
+            const size_t target = value < pivot ? below : above - 1;
+            values[i] = values[target];
+            values[target] = value;
             if (value < pivot) {
                 ++below;
                 ++i;

@@ -14,14 +14,14 @@ aur_result aur_integrand_check(const aur_integrate_options *options, size_t widt
                                const double *points, const double *values, aur_error *error) {
     for (size_t i = 0; i < count * width; ++i)
         if (!isfinite(values[i])) {
-            char place[128];
+            char position[128];
             size_t length = 0;
             const size_t coordinates = aur_integrate_coordinates(options);
             for (size_t d = 0; d < coordinates && d < 4; ++d)
-                length += (size_t)snprintf(place + length, sizeof place - length, "%s%.17g",
+                length += (size_t)snprintf(position + length, sizeof position - length, "%s%.17g",
                                            d > 0 ? ", " : "", points[i / width * coordinates + d]);
             return aur_fail(error, AUR_ERROR_ARGUMENT, "the function is %g %s (%s%s)", values[i],
-                            aur_shape_is_directions(options) ? "in the direction" : "at the point", place,
+                            aur_shape_is_directions(options) ? "in the direction" : "at the point", position,
                             coordinates > 4 ? ", ..." : "");
         }
     return AUR_OK;
@@ -33,7 +33,7 @@ static aur_result evaluate_call(aur_integration *work, const aur_stratum *part, 
     const aur_integrate_options *const o = &work->options;
     const size_t coordinates = aur_integrate_coordinates(o), values = work->values;
     double *const points = work->results, *const along = points + AUR_INTEGRAND_POINTS * coordinates;
-    double *const factors = along + AUR_INTEGRAND_POINTS, *const made = factors + AUR_INTEGRAND_POINTS;
+    double *const factors = along + AUR_INTEGRAND_POINTS, *const computed = factors + AUR_INTEGRAND_POINTS;
     double *const out = part->values[replicate] + first * values;
     aur_result result =
         aur_replicates_points(part->replicates, replicate, first, count, points, along, factors, error);
@@ -44,15 +44,15 @@ static aur_result evaluate_call(aur_integration *work, const aur_stratum *part, 
             along[inside++] = along[i];
         }
     if (result == AUR_OK && inside > 0)
-        result = work->function(work->user, inside, points, o->has_axis ? along : NULL, made, error);
+        result = work->function(work->user, inside, points, o->has_axis ? along : NULL, computed, error);
     if (result == AUR_OK)
-        result = aur_integrand_check(o, values, inside, points, made, error);
+        result = aur_integrand_check(o, values, inside, points, computed, error);
     work->integral.evaluations += inside;
     for (size_t i = count; i > 0 && result == AUR_OK; --i) {
         const double factor = factors[i - 1];
         inside -= factor != 0.0;
         for (size_t v = 0; v < values; ++v)
-            out[(i - 1) * values + v] = factor != 0.0 ? factor * made[inside * values + v] : (double)NAN;
+            out[(i - 1) * values + v] = factor != 0.0 ? factor * computed[inside * values + v] : (double)NAN;
     }
     return result;
 }

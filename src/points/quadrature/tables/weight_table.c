@@ -176,8 +176,8 @@ size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float
     const size_t index = locate_step(table->angle_count - 1, radians, part);
     if (!table->apart)
         return slot * table->angle_count + index;
-    const size_t place = slot * (table->angle_count - 1) + index;
-    const uint32_t *const first = table->first + place;
+    const size_t cell = slot * (table->angle_count - 1) + index;
+    const uint32_t *const first = table->first + cell;
     size_t piece = first[0];
     while (piece + 1 < first[1] && table->start[piece + 1] <= radians)
         ++piece;

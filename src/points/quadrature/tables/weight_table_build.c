@@ -316,16 +316,16 @@ aur_result aur_weight_table_find(const aur_oswa_options *options, const aur_weig
                                  aur_error *error) {
     char key[AUR_WEIGHT_TABLE_KEY_CAPACITY];
     const uint64_t identity = aur_build_identity();
-    const bool keeps = identity != 0 && aur_weight_table_key(options, grid, identity, key) == AUR_OK;
+    const bool caches = identity != 0 && aur_weight_table_key(options, grid, identity, key) == AUR_OK;
     size_t size = 0;
-    void *data = keeps ? aur_cache_file_read(cache_kind, key, &size) : NULL;
+    void *data = caches ? aur_cache_file_read(cache_kind, key, &size) : NULL;
     const bool found =
         data != NULL && aur_weight_table_parse("cache", size, data, options, table, NULL) == AUR_OK;
     free(data);
     if (found)
         return AUR_OK;
     const aur_result result = aur_weight_table_build(options, grid, threads, progress, table, error);
-    if (result == AUR_OK && keeps && aur_weight_table_print(*table, &size, &data, NULL) == AUR_OK) {
+    if (result == AUR_OK && caches && aur_weight_table_print(*table, &size, &data, NULL) == AUR_OK) {
         aur_cache_file_write(cache_kind, key, size, data);
         free(data);
     }

@@ -116,13 +116,13 @@ aur_result aur_symmetric_rule(const aur_point_group *group, size_t most, size_t 
                         capacity);
     rule.z = malloc(2 * rule.heights * sizeof *rule.z);
     rule.visited = calloc(rule.heights * rule.azimuths, sizeof *rule.visited);
-    const bool made = rule.z != NULL && rule.visited != NULL;
-    if (made) {
+    const bool good = rule.z != NULL && rule.visited != NULL;
+    if (good) {
         rule.weights = rule.z + rule.heights;
         aur_gauss_legendre(rule.heights, rule.z, rule.weights);
         *count = reduce(group, &rule, xyz, weights);
     }
     free(rule.z);
     free(rule.visited);
-    return made ? AUR_OK : aur_fail_memory(error);
+    return good ? AUR_OK : aur_fail_memory(error);
 }

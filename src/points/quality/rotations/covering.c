@@ -67,9 +67,9 @@ static bool add_plane(polyhedron *p, plane added) {
 static bool add_corner(polyhedron *p, size_t a, size_t b, size_t c) {
     if (!aur_array_reserve(&p->corners, &p->corner_capacity, p->corner_count + 1, sizeof *p->corners))
         return false;
-    corner *const made = &p->corners[p->corner_count++];
-    *made = (corner){.planes = {a, b, c}};
-    meet(p, made);
+    corner *const added = &p->corners[p->corner_count++];
+    *added = (corner){.planes = {a, b, c}};
+    meet(p, added);
     return true;
 }
 
@@ -158,17 +158,17 @@ static aur_result cell_radius(const cells *work, size_t index, polyhedron *p, do
     const double *const q = aur_point_at(work->points, index);
     for (size_t requested = FIRST_NEIGHBOURS;; requested *= 4) {
         aur_found *const found = malloc(requested * sizeof *found);
-        bool made = found != NULL && start(p);
-        const size_t near = made ? aur_tree_find(work->tree, q, requested, found) : 0;
-        for (size_t n = 0; n < near && made; ++n) {
+        bool good = found != NULL && start(p);
+        const size_t near = good ? aur_tree_find(work->tree, q, requested, found) : 0;
+        for (size_t n = 0; n < near && good; ++n) {
             /* The opposite cuts nothing off; a coincident rotation shares the cell. */
             if (found[n].square > 1e-28 && found[n].square < 4.0 - 1e-12)
-                made = cut_by(p, q, aur_point_at(work->points, found[n].index), found[n].square);
+                good = cut_by(p, q, aur_point_at(work->points, found[n].index), found[n].square);
         }
-        *radius = made ? atan(greatest_tangent(p)) : 0.0;
+        *radius = good ? atan(greatest_tangent(p)) : 0.0;
         const double reach = near > 0 ? 2.0 * asin(fmin(0.5 * sqrt(found[near - 1].square), 1.0)) : 0.0;
         free(found);
-        if (!made)
+        if (!good)
             return AUR_ERROR_MEMORY;
         if (near == count || reach >= 2.0 * *radius)
             return AUR_OK;

@@ -36,10 +36,10 @@ static double triangle_at_pole(const double a[3], const double b[3]) {
     return 2.0 * atan2(a[0] * b[1] - a[1] * b[0], 1.0 + a[2] + b[2] + aur_dot3(a, b));
 }
 
-static void reach(part_work *work, const double place[3]) {
+static void reach(part_work *work, const double corner[3]) {
     double normal[3];
-    aur_cross3(work->point, place, normal);
-    work->part.radius = fmax(work->part.radius, atan2(aur_length3(normal), aur_dot3(work->point, place)));
+    aur_cross3(work->point, corner, normal);
+    work->part.radius = fmax(work->part.radius, atan2(aur_length3(normal), aur_dot3(work->point, corner)));
 }
 
 /* The bilinear form that is 0 for a = b on the double cone of the rim, and negative within it; without

@@ -141,17 +141,17 @@ void aur_cell_cut(aur_cell *cell, const double normal[3]) {
     const size_t after = (last + 1) % count;
     join(&sides[first], &cut);
     join(&cut, &sides[after]);
-    const size_t place = first + 1;
+    const size_t at = first + 1;
     if (last >= first) {
         const size_t rest = count - last - 1;
-        memmove(&sides[place + 1], &sides[last + 1], rest * sizeof *sides);
-        sides[place] = cut;
-        cell->count = place + 1 + rest;
+        memmove(&sides[at + 1], &sides[last + 1], rest * sizeof *sides);
+        sides[at] = cut;
+        cell->count = at + 1 + rest;
         return;
     }
-    memmove(&sides[0], &sides[after], (place - after) * sizeof *sides);
-    sides[place - after] = cut;
-    cell->count = place - after + 1;
+    memmove(&sides[0], &sides[after], (at - after) * sizeof *sides);
+    sides[at - after] = cut;
+    cell->count = at - after + 1;
 }
 
 /* The triangle of (0, 0, 1) and two unit vectors (Van Oosterom and Strackee 1983). */
@@ -199,13 +199,13 @@ double aur_cell_area(const aur_cell *cell) {
 /* The point of a side's great circle farthest from (0, 0, 1): as an angle, and whether it is on the side. */
 static double farthest_of(const aur_cell_side *side, const double begin[3], size_t count) {
     const double distance = asin(fmin(side->normal[2] / side->length, 1.0));
-    double start[3], place[3];
+    double start[3], at[3];
     if (count > 1) {
         for (size_t d = 0; d < 3; ++d)
-            place[d] = side->normal[2] / (side->length * side->length) * side->normal[d];
-        place[2] -= 1.0; /* away from (0, 0, 1), in the plane of the great circle */
+            at[d] = side->normal[2] / (side->length * side->length) * side->normal[d];
+        at[2] -= 1.0; /* away from (0, 0, 1), in the plane of the great circle */
         along(side, begin, 0.5 * AUR_PI, start);
-        const double angle = atan2(aur_dot3(start, place), aur_dot3(begin, place));
+        const double angle = atan2(aur_dot3(start, at), aur_dot3(begin, at));
         if (!(angle > 0.0 && angle < angle_of(side, begin)))
             return 0.0;
     }

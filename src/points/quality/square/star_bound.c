@@ -9,7 +9,7 @@
 #include "points/base/random.h"
 #include "points/quality/measure.h"
 
-enum { TRIALS = 16, DEFAULT_STEPS = 4096 };
+enum { ATTEMPTS = 16, DEFAULT_STEPS = 4096 };
 
 typedef struct walk {
     const aur_points_view *points;
@@ -84,11 +84,12 @@ static double grow(const walk *w, const box *b) {
 }
 
 typedef struct dice {
-    uint64_t seed, trial, counter;
+    uint64_t seed, attempt, counter;
 } dice;
 
 static size_t throw(dice * d, size_t sides) {
-    const size_t side = (size_t)(aur_unit_double(aur_hash3(d->seed, d->trial, d->counter++)) * (double)sides);
+    const size_t side =
+        (size_t)(aur_unit_double(aur_hash3(d->seed, d->attempt, d->counter++)) * (double)sides);
     return side < sides ? side : sides - 1;
 }
 
@@ -105,20 +106,20 @@ static void move(const walk *w, dice *random, const size_t *from, size_t reach, 
     }
 }
 
-static double value_at(const walk *w, const size_t *place, const box *b) {
+static double value_at(const walk *w, const size_t *indices, const box *b) {
     const size_t dimension = w->points->dimension, stride = w->points->count + 1;
     for (size_t d = 0; d < dimension; ++d)
-        b->upper[d] = w->sorted[d * stride + place[d]];
+        b->upper[d] = w->sorted[d * stride + indices[d]];
     return difference(w, b);
 }
 
-static double run_walk(const walk *w, size_t trial, const box *b, size_t *here, size_t *there) {
+static double run_walk(const walk *w, size_t attempt, const box *b, size_t *here, size_t *there) {
     const size_t dimension = w->points->dimension, count = w->points->count;
-    dice random = {w->seed, trial, 0};
+    dice random = {w->seed, attempt, 0};
     /* Large boxes hold most of the differences in many dimensions: start with volumes spread evenly. */
     for (size_t d = 0; d < dimension; ++d) {
         const double side =
-            pow(aur_unit_double(aur_hash3(w->seed, trial, random.counter++)), 1.0 / (double)dimension);
+            pow(aur_unit_double(aur_hash3(w->seed, attempt, random.counter++)), 1.0 / (double)dimension);
         here[d] = (size_t)(side * (double)count);
     }
     double current = value_at(w, here, b);
@@ -139,18 +140,18 @@ static double run_walk(const walk *w, size_t trial, const box *b, size_t *here, 
     return best;
 }
 
-static aur_result do_trial(void *context, size_t trial) {
+static aur_result do_attempt(void *context, size_t attempt) {
     const walk *const w = context;
     const size_t dimension = w->points->dimension;
     double *const sides = malloc(3 * dimension * sizeof *sides);
-    size_t *const places = malloc(2 * dimension * sizeof *places);
-    const aur_result result = sides != NULL && places != NULL ? AUR_OK : AUR_ERROR_MEMORY;
+    size_t *const indices = malloc(2 * dimension * sizeof *indices);
+    const aur_result result = sides != NULL && indices != NULL ? AUR_OK : AUR_ERROR_MEMORY;
     if (result == AUR_OK) {
         const box b = {sides, sides + dimension, sides + 2 * dimension};
-        w->best[trial] = run_walk(w, trial, &b, places, places + dimension);
+        w->best[attempt] = run_walk(w, attempt, &b, indices, indices + dimension);
     }
     free(sides);
-    free(places);
+    free(indices);
     return result;
 }
 
@@ -178,15 +179,15 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
     aur_result result = aur_measure_number(request, 1.0, 1e9, DEFAULT_STEPS, &steps, error);
     if (result != AUR_OK)
         return result;
-    double best[TRIALS] = {0};
+    double best[ATTEMPTS] = {0};
     double *const table = tabulate(request->points, request->arena);
     if (table == NULL)
         return aur_fail_memory(error);
     walk w = {request->points, table, (size_t)steps, request->options.seed, best};
-    result = aur_measure_items(&request->options, "trying boxes", TRIALS, do_trial, &w,
+    result = aur_measure_items(&request->options, "trying boxes", ATTEMPTS, do_attempt, &w,
                                (aur_parallel_slice){best, sizeof *best, sizeof best}, error);
     *value = 0.0;
-    for (size_t i = 0; i < TRIALS; ++i)
+    for (size_t i = 0; i < ATTEMPTS; ++i)
         *value = fmax(*value, best[i]);
     return result;
 }

@@ -190,18 +190,18 @@ aur_result aur_measure_series(const char *metric, const aur_points_view *points,
     *series = NULL;
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
-    aur_series *made = NULL;
+    aur_series *computed = NULL;
     if (result == AUR_OK && p.row->tabulate == NULL)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
                           p.row->description.row.name);
     if (result == AUR_OK) {
-        made = calloc(1, sizeof *made);
-        result = made != NULL ? p.row->tabulate(&p.request, made, error) : aur_fail_memory(error);
+        computed = calloc(1, sizeof *computed);
+        result = computed != NULL ? p.row->tabulate(&p.request, computed, error) : aur_fail_memory(error);
     }
     if (result == AUR_OK)
-        *series = made;
+        *series = computed;
     else
-        aur_series_destroy(made);
+        aur_series_destroy(computed);
     aur_arena_release(&p.arena);
     return result;
 }

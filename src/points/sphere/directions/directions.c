@@ -196,15 +196,15 @@ aur_result aur_directions_create(const char *set, const aur_directions_options *
         result = check_options(&copy, error);
     if (result != AUR_OK)
         return result;
-    aur_directions *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_directions *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    result = open_set(set, &copy, made, error);
+    result = open_set(set, &copy, created, error);
     if (result != AUR_OK) {
-        aur_directions_destroy(made);
+        aur_directions_destroy(created);
         return result;
     }
-    *directions = made;
+    *directions = created;
     return AUR_OK;
 }
 

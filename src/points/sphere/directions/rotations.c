@@ -63,14 +63,14 @@ aur_result aur_rotations_create(const char *set, const aur_rotations_options *op
     aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_rotations_options", error);
     if (result != AUR_OK)
         return result;
-    aur_rotations *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_rotations *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    result = open_set(set, &copy, made, error);
+    result = open_set(set, &copy, created, error);
     if (result == AUR_OK)
-        *rotations = made;
+        *rotations = created;
     else
-        aur_rotations_destroy(made);
+        aur_rotations_destroy(created);
     return result;
 }
 

@@ -32,20 +32,20 @@ static bool take(const aur_nearest *nearest, const double *from, double *to) {
     return isfinite(square) && isfinite(scale);
 }
 
-static aur_result make_tree(const aur_points_view *points, aur_nearest *made, aur_error *error) {
+static aur_result make_tree(const aur_points_view *points, aur_nearest *created, aur_error *error) {
     const size_t dimension = points->dimension, count = points->count, size = dimension * count;
-    double *const all = calloc(made->ends * size, sizeof *all);
+    double *const all = calloc(created->ends * size, sizeof *all);
     if (all == NULL)
         return aur_fail_memory(error);
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        if (!take(made, aur_point_at(points, i), all + dimension * i))
+        if (!take(created, aur_point_at(points, i), all + dimension * i))
             result = aur_fail(error, AUR_ERROR_ARGUMENT,
                               "point %zu has no place: its coordinates are not finite, or all zero", i + 1);
-    for (size_t i = 0; i < size && made->ends == 2; ++i)
+    for (size_t i = 0; i < size && created->ends == 2; ++i)
         all[size + i] = -all[i];
     if (result == AUR_OK)
-        result = aur_tree_create(dimension, made->ends * count, dimension, all, &made->tree, error);
+        result = aur_tree_create(dimension, created->ends * count, dimension, all, &created->tree, error);
     free(all);
     return result;
 }
@@ -61,16 +61,16 @@ aur_result aur_nearest_create(const aur_points_view *given, aur_nearest **neares
             error, AUR_ERROR_ARGUMENT,
             "the nearest of points needs at least one point of 1 to %d coordinates, not %zu of %zu",
             MOST_DIMENSIONS, points.count, points.dimension);
-    aur_nearest *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_nearest *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
     const bool twofold = points.domain == AUR_DOMAIN_AXES || points.domain == AUR_DOMAIN_ROTATIONS;
-    *made = (aur_nearest){NULL, points.domain, points.dimension, points.count, twofold ? 2 : 1};
-    result = make_tree(&points, made, error);
+    *created = (aur_nearest){NULL, points.domain, points.dimension, points.count, twofold ? 2 : 1};
+    result = make_tree(&points, created, error);
     if (result == AUR_OK)
-        *nearest = made;
+        *nearest = created;
     else
-        aur_nearest_destroy(made);
+        aur_nearest_destroy(created);
     return result;
 }
 

@@ -81,27 +81,27 @@ static void split_range(aur_tree *tree, size_t stride, const double *given, size
 aur_result aur_tree_create(size_t dimension, size_t count, size_t stride, const double *coordinates,
                            aur_tree **tree, aur_error *error) {
     *tree = NULL;
-    aur_tree *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_tree *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->dimension = dimension;
-    made->count = count;
-    while (count >> made->level_count > LEAF)
-        ++made->level_count;
-    made->order = calloc(count, sizeof *made->order);
-    made->coordinates = calloc(count * dimension, sizeof *made->coordinates);
-    made->splits = calloc((size_t)1 << made->level_count, sizeof *made->splits);
-    if (made->order == NULL || made->coordinates == NULL || made->splits == NULL) {
-        aur_tree_destroy(made);
+    created->dimension = dimension;
+    created->count = count;
+    while (count >> created->level_count > LEAF)
+        ++created->level_count;
+    created->order = calloc(count, sizeof *created->order);
+    created->coordinates = calloc(count * dimension, sizeof *created->coordinates);
+    created->splits = calloc((size_t)1 << created->level_count, sizeof *created->splits);
+    if (created->order == NULL || created->coordinates == NULL || created->splits == NULL) {
+        aur_tree_destroy(created);
         return aur_fail_memory(error);
     }
     for (size_t i = 0; i < count; ++i)
-        made->order[i] = i;
-    split_range(made, stride, coordinates, 0, 0, 0, count);
+        created->order[i] = i;
+    split_range(created, stride, coordinates, 0, 0, 0, count);
     for (size_t i = 0; i < count; ++i)
         for (size_t d = 0; d < dimension; ++d)
-            made->coordinates[i * dimension + d] = coordinates[made->order[i] * stride + d];
-    *tree = made;
+            created->coordinates[i * dimension + d] = coordinates[created->order[i] * stride + d];
+    *tree = created;
     return AUR_OK;
 }
 

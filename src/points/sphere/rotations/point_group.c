@@ -22,11 +22,11 @@ static aur_rotation turn(unsigned order, const double axis[3]) {
     aur_normalize3(u);
     const double angle = 2.0 * AUR_PI / order, c = cos(angle), s = sin(angle);
     const double cross[9] = {0, -u[2], u[1], u[2], 0, -u[0], -u[1], u[0], 0};
-    aur_rotation made;
+    aur_rotation rotation;
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-            made.m[3 * i + k] = (i == k ? c : 0.0) + s * cross[3 * i + k] + (1.0 - c) * u[i] * u[k];
-    return made;
+            rotation.m[3 * i + k] = (i == k ? c : 0.0) + s * cross[3 * i + k] + (1.0 - c) * u[i] * u[k];
+    return rotation;
 }
 
 static aur_rotation multiply(const aur_rotation *a, const aur_rotation *b) {

@@ -34,19 +34,19 @@ static uint64_t common_divisor(uint64_t a, uint64_t b) {
 }
 
 /* Regions of the collars: ideal numbers, rounded with the error carried to the next collar. */
-static void divide(partition *made, double fitting) {
-    const double all = (double)made->count, cap = cap_angle(1.0, all);
-    const size_t inner = made->collars - 2;
+static void divide(partition *filled, double fitting) {
+    const double all = (double)filled->count, cap = cap_angle(1.0, all);
+    const size_t inner = filled->collars - 2;
     double lost = 0.0;
     uint64_t so_far = 1;
-    made->of[0] = (collar){.count = 1, .theta = 0.0};
+    filled->of[0] = (collar){.count = 1, .theta = 0.0};
     for (size_t k = 0; k < inner; ++k) {
         const double top = sin(0.5 * (cap + (double)k * fitting)),
                      bottom = sin(0.5 * (cap + (double)(k + 1) * fitting));
         const double ideal = all * (bottom * bottom - top * top);
         const double rounded = floor(ideal + lost + 0.5);
         lost += ideal - rounded;
-        collar *const c = made->of + k + 1, *const before = c - 1;
+        collar *const c = filled->of + k + 1, *const before = c - 1;
         *c = (collar){.first = so_far, .count = (uint64_t)rounded};
         const double above = cap_angle((double)so_far, all);
         so_far += c->count;
@@ -58,7 +58,7 @@ static void divide(partition *made, double fitting) {
             c->phase = fmod(before->phase + 0.5 * (1.0 / here - 1.0 / there + common / (here * there)), 1.0);
         }
     }
-    made->of[inner + 1] = (collar){.first = made->count - 1, .count = 1, .theta = AUR_PI};
+    filled->of[inner + 1] = (collar){.first = filled->count - 1, .count = 1, .theta = AUR_PI};
 }
 
 static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
@@ -70,15 +70,15 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     const double all = (double)request->count, across = AUR_PI - 2.0 * cap_angle(1.0, all);
     const double ideal = sqrt(4.0 * AUR_PI / all);
     const size_t inner = request->count > 2 ? (size_t)fmax(1.0, floor(across / ideal + 0.5)) : 0;
-    partition *const made = malloc(sizeof *made + (inner + 2) * sizeof made->of[0]);
-    if (made == NULL)
+    partition *const created = malloc(sizeof *created + (inner + 2) * sizeof created->of[0]);
+    if (created == NULL)
         return aur_fail_memory(error);
-    *made = (partition){.count = request->count, .collars = request->count > 1 ? inner + 2 : 1};
+    *created = (partition){.count = request->count, .collars = request->count > 1 ? inner + 2 : 1};
     if (request->count > 1)
-        divide(made, inner > 0 ? across / (double)inner : 0.0);
+        divide(created, inner > 0 ? across / (double)inner : 0.0);
     else
-        made->of[0] = (collar){.count = 1};
-    *data = made;
+        created->of[0] = (collar){.count = 1};
+    *data = created;
     return AUR_OK;
 }
 

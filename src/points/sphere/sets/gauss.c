@@ -104,23 +104,23 @@ static size_t azimuths_of(size_t degree, const ring *r) {
 static product *create(size_t n, const gauss_keys *p) {
     const bool lobatto = p->rings == LOBATTO;
     const size_t rings = lobatto ? n + 1 : n;
-    product *const made = malloc(sizeof *made + rings * sizeof made->of[0]);
+    product *const created = malloc(sizeof *created + rings * sizeof created->of[0]);
     double nodes[LARGEST + 1], weights[LARGEST + 1];
-    if (made == NULL)
+    if (created == NULL)
         return NULL;
     (lobatto ? gauss_lobatto : aur_gauss_legendre)(n, nodes, weights);
-    *made = (product){.rings = rings};
+    *created = (product){.rings = rings};
     for (size_t i = 0; i < rings; ++i) {
         const double z = nodes[rings - 1 - i];
-        ring *const r = made->of + i;
+        ring *const r = created->of + i;
         *r = (ring){.z = z,
                     .radius = sqrt((1.0 - z) * (1.0 + z)),
                     .weight = 0.5 * weights[rings - 1 - i],
-                    .first = made->count};
+                    .first = created->count};
         r->azimuths = r->radius == 0.0 ? 1 : p->pruned ? azimuths_of(2 * n - 1, r) : 2 * n;
-        made->count += r->azimuths;
+        created->count += r->azimuths;
     }
-    return made;
+    return created;
 }
 
 static size_t plain_size(size_t n, const gauss_keys *p) {
@@ -148,14 +148,14 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     while (n < LARGEST && plain_size(n, &p) < request->count)
         ++n;
     for (; n <= LARGEST; ++n) {
-        product *const made = create(n, &p);
-        if (made == NULL)
+        product *const created = create(n, &p);
+        if (created == NULL)
             return aur_fail_memory(error);
-        *data = made;
-        if (made->count == request->count)
+        *data = created;
+        if (created->count == request->count)
             return AUR_OK;
-        const size_t found = made->count;
-        free(made);
+        const size_t found = created->count;
+        free(created);
         *data = NULL;
         if (found > request->count) {
             if (below == 0 && n > 1) {

@@ -37,19 +37,19 @@ typedef struct design {
 } design;
 
 /* Computes the points, or takes them from the cache. */
-static aur_result solve(const char *name, const aur_reference *reference, design *made, aur_error *error) {
+static aur_result solve(const char *name, const aur_reference *reference, design *solved, aur_error *error) {
     char key[64];
     size_t size;
     snprintf(key, sizeof key, "%s %d %u", name, VERSION, (unsigned)reference->degree);
     char *const found = aur_cache_file_read(name, key, &size);
-    const size_t bytes = reference->rows * sizeof made->points[0];
+    const size_t bytes = reference->rows * sizeof solved->points[0];
     const bool right = found != NULL && size == bytes;
     if (right)
-        memcpy(made->points, found, bytes);
+        memcpy(solved->points, found, bytes);
     free(found);
-    const aur_result result = right ? AUR_OK : aur_design_solve(reference->degree, made->points[0], error);
+    const aur_result result = right ? AUR_OK : aur_design_solve(reference->degree, solved->points[0], error);
     if (result == AUR_OK && !right)
-        aur_cache_file_write(name, key, bytes, made->points);
+        aur_cache_file_write(name, key, bytes, solved->points);
     return result;
 }
 
@@ -63,28 +63,28 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     aur_result result = aur_reference_find(row->name, SIZES, all, request, &found, error);
     if (result != AUR_OK)
         return result;
-    design *const made = malloc(sizeof *made + found->rows * sizeof made->points[0]);
-    if (made == NULL)
+    design *const solved = malloc(sizeof *solved + found->rows * sizeof solved->points[0]);
+    if (solved == NULL)
         return aur_fail_memory(error);
-    made->rows = found->rows;
+    solved->rows = found->rows;
     if (found - all < AUR_T_DESIGN_COUNT)
-        memcpy(made->points, points + found->first, found->rows * sizeof made->points[0]);
+        memcpy(solved->points, points + found->first, found->rows * sizeof solved->points[0]);
     else
-        result = solve(row->name, found, made, error);
+        result = solve(row->name, found, solved, error);
     if (result == AUR_OK)
-        *data = made;
+        *data = solved;
     else
-        free(made);
+        free(solved);
     return result;
 }
 
 static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
-    const design *const made = data;
+    const design *const solved = data;
     for (size_t i = 0; i < count; ++i) {
         const size_t at = (size_t)first + i;
-        const double sign = at < made->rows ? 1.0 : -1.0;
+        const double sign = at < solved->rows ? 1.0 : -1.0;
         for (size_t d = 0; d < 3; ++d)
-            xyz[3 * i + d] = sign * made->points[at % made->rows][d];
+            xyz[3 * i + d] = sign * solved->points[at % solved->rows][d];
     }
 }
 

@@ -222,11 +222,11 @@ static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
     aur_lane_numbers corner[4];
     choose_patches(self, lanes, u, v, &positions);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        float own[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+        float factors[4] = {1.0f, 1.0f, 1.0f, 1.0f};
         if ((lanes >> k & 1u) != 0)
-            corners_of(self, positions.i[k], positions.j[k], own);
+            corners_of(self, positions.i[k], positions.j[k], factors);
         for (size_t c = 0; c < 4; ++c)
-            corner[c][k] = own[c];
+            corner[c][k] = factors[c];
     }
     self->kernels->draw(self, (const aur_lane_numbers *)corner, &positions, &directions);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {

@@ -66,31 +66,31 @@ typedef struct view {
 } view;
 
 /* The lights keep their indices, which shapes refer to, but emit nothing; the sky is appended. */
-static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *open, aur_error *error) {
+static aur_result set_lights(const aur_scene *scene, view *created, aur_open_sky *open, aur_error *error) {
     const size_t count = scene->emitter_count;
-    aur_scene *const copy = &made->scene;
+    aur_scene *const copy = &created->scene;
     double *const powers = calloc(count + 1, sizeof *powers);
-    made->dark = calloc(count + 1, sizeof *made->dark);
+    created->dark = calloc(count + 1, sizeof *created->dark);
     copy->emitters = calloc(count + 1, sizeof *copy->emitters);
     copy->environments = calloc(1, sizeof *copy->environments);
     aur_result result = AUR_OK;
-    if (powers == NULL || made->dark == NULL || copy->emitters == NULL || copy->environments == NULL) {
+    if (powers == NULL || created->dark == NULL || copy->emitters == NULL || copy->environments == NULL) {
         result = aur_fail_memory(error);
     } else {
         for (size_t i = 0; i < count; ++i) {
-            made->dark[i] = *scene->emitters[i];
-            made->dark[i].radiance = (aur_color){.texture = NULL};
-            made->dark[i].power = 0.0;
+            created->dark[i] = *scene->emitters[i];
+            created->dark[i].radiance = (aur_color){.texture = NULL};
+            created->dark[i].power = 0.0;
             open->lamps += scene->emitters[i]->descriptor->radiance_from == NULL;
-            copy->emitters[i] = &made->dark[i];
+            copy->emitters[i] = &created->dark[i];
         }
-        copy->environments[0] = copy->emitters[count] = made->sky;
+        copy->environments[0] = copy->emitters[count] = created->sky;
         copy->emitter_count = count + 1;
         copy->environment_count = 1;
-        made->sky->index = (uint32_t)count;
-        made->sky->scene = copy;
-        powers[count] = made->sky->power = 1.0;
-        result = made->sky->descriptor->prepare(made->sky, error);
+        created->sky->index = (uint32_t)count;
+        created->sky->scene = copy;
+        powers[count] = created->sky->power = 1.0;
+        result = created->sky->descriptor->prepare(created->sky, error);
         if (result == AUR_OK)
             result = aur_distribution_create(&copy->lights, count + 1, powers, error);
         if (result == AUR_OK)
@@ -105,35 +105,35 @@ aur_result aur_open_sky_create(const aur_scene *scene, double ground, const doub
     *open = (aur_open_sky){.scene = NULL};
     double local_up[3] = {up[0], up[1], up[2]}, local_north[3] = {north[0], north[1], north[2]};
     find_axes(scene, local_up, local_north);
-    view *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    view *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->scene = *scene;
-    made->scene.emitters = NULL;
-    made->scene.environments = NULL;
-    made->scene.lights = (aur_distribution){0};
-    made->scene.choice = (aur_light_choice){.parts = NULL};
-    open->scene = &made->scene;
-    aur_result result = create_sky(ground, local_up, local_north, &made->sky, error);
+    created->scene = *scene;
+    created->scene.emitters = NULL;
+    created->scene.environments = NULL;
+    created->scene.lights = (aur_distribution){0};
+    created->scene.choice = (aur_light_choice){.parts = NULL};
+    open->scene = &created->scene;
+    aur_result result = create_sky(ground, local_up, local_north, &created->sky, error);
     if (result == AUR_OK)
-        result = set_lights(scene, made, open, error);
+        result = set_lights(scene, created, open, error);
     if (result == AUR_OK)
-        open->frame = *made->sky->descriptor->position_of(made->sky);
+        open->frame = *created->sky->descriptor->position_of(created->sky);
     else
         aur_open_sky_release(open);
     return result;
 }
 
 void aur_open_sky_release(aur_open_sky *open) {
-    view *const made = (view *)(uintptr_t)open->scene;
-    if (made == NULL)
+    view *const created = (view *)(uintptr_t)open->scene;
+    if (created == NULL)
         return;
-    aur_emitter_destroy(made->sky);
-    free(made->dark);
-    free(made->scene.emitters);
-    free(made->scene.environments);
-    aur_distribution_release(&made->scene.lights);
-    aur_light_choice_release(&made->scene.choice);
-    free(made);
+    aur_emitter_destroy(created->sky);
+    free(created->dark);
+    free(created->scene.emitters);
+    free(created->scene.environments);
+    aur_distribution_release(&created->scene.lights);
+    aur_light_choice_release(&created->scene.choice);
+    free(created);
     *open = (aur_open_sky){.scene = NULL};
 }

@@ -270,8 +270,8 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
     aur_scene *const scene = self->scene;
     const bool nested = self->node != self->top;
     bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
-    aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
-    *object = made;
+    aur_parameters *const built = nested ? &scene->nested_integrator : &scene->integrator;
+    *object = built;
     /* Integrators with several nested ones, or with one that is not unwrapped, are rejected when they are
      * created, unless another integrator replaces them. */
     if (*has && nested) {
@@ -286,7 +286,7 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
     *has = true;
     if (!nested && self->deep_integrator.file != NULL &&
         aur_parameters_find(parameters, "integrator2") == NULL) {
-        const aur_result result = aur_parameters_add_object(parameters, "integrator2", "integrator", made,
+        const aur_result result = aur_parameters_add_object(parameters, "integrator2", "integrator", built,
                                                             self->deep_integrator, self->error);
         if (result != AUR_OK)
             return result;
@@ -306,5 +306,5 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
         free(item->text);
         item->text = set;
     }
-    return aur_parameters_copy(parameters, made, self->error);
+    return aur_parameters_copy(parameters, built, self->error);
 }

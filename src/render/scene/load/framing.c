@@ -115,7 +115,7 @@ static void set_axes(double azimuth, double elevation, bool z_up, double axes[3]
 
 static void set_sensor(aur_sensor *sensor, double axes[3][3], const double position[3], double scale) {
     for (size_t d = 0; d < 3; ++d) {
-        sensor->place[d] = position[d];
+        sensor->position[d] = position[d];
         for (size_t k = 0; k < 3; ++k)
             sensor->to_world[4 * d + k] = (float)(axes[k][d] * (k < 2 ? scale : 1.0));
         sensor->to_world[4 * d + 3] = (float)position[d];
@@ -240,7 +240,7 @@ aur_result aur_scene_turn(aur_scene *scene, double azimuth, double elevation, do
     const aur_stage_axes axes = aur_stage_axes_of(scene, scene->document.stage.z_up);
     double from[3];
     for (size_t d = 0; d < 3; ++d)
-        from[d] = sensor->place[d] - scene->middle[d];
+        from[d] = sensor->position[d] - scene->middle[d];
     const double length = aur_length3(from);
     const double now = length > 0.0 ? asin(clamp(aur_dot3(from, axes.up) / length, -1.0, 1.0)) : 0.0;
     const double most = 89.0 * AUR_PI / 180.0, least = scene->has_ground ? AUR_PI / 180.0 : -most;
@@ -258,6 +258,6 @@ aur_result aur_scene_turn(aur_scene *scene, double azimuth, double elevation, do
             sensor->to_world[4 * d + k] = (float)column[d];
     }
     for (size_t d = 0; d < 3; ++d)
-        sensor->place[d] = scene->middle[d] + from[d] * (flat ? 1.0 : distance);
+        sensor->position[d] = scene->middle[d] + from[d] * (flat ? 1.0 : distance);
     return aur_sensor_recenter(sensor, scene->origin, error);
 }

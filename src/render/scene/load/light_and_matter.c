@@ -8,18 +8,18 @@
 aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_result result = aur_loader_reserve(self, &scene->bsdfs, scene->bsdf_count, &scene->bsdf_capacity);
-    aur_bsdf **const made = scene->bsdfs + scene->bsdf_count;
+    aur_bsdf **const built = scene->bsdfs + scene->bsdf_count;
     if (result == AUR_OK)
-        result = aur_bsdf_create(parameters, made, self->error);
+        result = aur_bsdf_create(parameters, built, self->error);
     if (result != AUR_OK)
         return result;
-    if ((*made)->descriptor->polarizes && !self->said_unpolarized) {
+    if ((*built)->descriptor->polarizes && !self->said_unpolarized) {
         self->said_unpolarized = true;
         aur_warn_at(self->warnings, parameters->location,
                     "light is unpolarised here: '%s' and its like do with it what they do with such light",
                     parameters->plugin);
     }
-    *object = *made;
+    *object = *built;
     ++scene->bsdf_count;
     return AUR_OK;
 }
@@ -103,12 +103,12 @@ aur_result aur_build_texture(aur_loader *self, aur_parameters *parameters, void 
         result = add_image(self, parameters);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->textures, scene->texture_count, &scene->texture_capacity);
-    aur_texture **const made = scene->textures + scene->texture_count;
+    aur_texture **const built = scene->textures + scene->texture_count;
     if (result == AUR_OK)
-        result = aur_texture_create(parameters, scene->texel_pages, made, self->error);
+        result = aur_texture_create(parameters, scene->texel_pages, built, self->error);
     if (result != AUR_OK)
         return result;
-    *object = *made;
+    *object = *built;
     ++scene->texture_count;
     return AUR_OK;
 }
@@ -124,15 +124,15 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
     void *medium = NULL;
     if (result == AUR_OK)
         result = aur_loader_nested(self, parameters, "medium", &medium);
-    aur_emitter **const made = scene->emitters + scene->emitter_count;
+    aur_emitter **const built = scene->emitters + scene->emitter_count;
     if (result == AUR_OK)
-        result = aur_emitter_create(parameters, made, self->error);
+        result = aur_emitter_create(parameters, built, self->error);
     if (strcmp(parameters->plugin, "envmap") == 0)
         aur_loader_drop_image(self); /* environment maps are large */
     if (result != AUR_OK)
         return result;
-    *object = *made;
-    (*made)->index = (uint32_t)scene->emitter_count++;
+    *object = *built;
+    (*built)->index = (uint32_t)scene->emitter_count++;
     return AUR_OK;
 }
 
@@ -141,12 +141,12 @@ aur_result aur_build_volume(aur_loader *self, aur_parameters *parameters, void *
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->volumes, scene->volume_count, &scene->volume_capacity);
-    aur_volume **const made = scene->volumes + scene->volume_count;
+    aur_volume **const built = scene->volumes + scene->volume_count;
     if (result == AUR_OK)
-        result = aur_volume_create(parameters, made, self->error);
+        result = aur_volume_create(parameters, built, self->error);
     if (result != AUR_OK)
         return result;
-    *object = *made;
+    *object = *built;
     ++scene->volume_count;
     return AUR_OK;
 }
@@ -154,12 +154,12 @@ aur_result aur_build_volume(aur_loader *self, aur_parameters *parameters, void *
 aur_result aur_build_phase(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_result result = aur_loader_reserve(self, &scene->phases, scene->phase_count, &scene->phase_capacity);
-    aur_phase **const made = scene->phases + scene->phase_count;
+    aur_phase **const built = scene->phases + scene->phase_count;
     if (result == AUR_OK)
-        result = aur_phase_create(parameters, made, self->error);
+        result = aur_phase_create(parameters, built, self->error);
     if (result != AUR_OK)
         return result;
-    *object = *made;
+    *object = *built;
     ++scene->phase_count;
     return AUR_OK;
 }
@@ -167,12 +167,12 @@ aur_result aur_build_phase(aur_loader *self, aur_parameters *parameters, void **
 aur_result aur_build_medium(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_result result = aur_loader_reserve(self, &scene->media, scene->medium_count, &scene->medium_capacity);
-    aur_medium **const made = scene->media + scene->medium_count;
+    aur_medium **const built = scene->media + scene->medium_count;
     if (result == AUR_OK)
-        result = aur_medium_create(parameters, made, self->error);
+        result = aur_medium_create(parameters, built, self->error);
     if (result != AUR_OK)
         return result;
-    *object = *made;
+    *object = *built;
     ++scene->medium_count;
     return AUR_OK;
 }

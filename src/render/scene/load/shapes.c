@@ -170,21 +170,21 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         result = aur_loader_reserve(self, &scene->shapes, scene->shape_count, &scene->shape_capacity);
     if (result != AUR_OK)
         return result;
-    aur_shape **const made = scene->shapes + scene->shape_count;
-    result = aur_shape_create(parameters, &scene->document, made, self->error);
+    aur_shape **const built = scene->shapes + scene->shape_count;
+    result = aur_shape_create(parameters, &scene->document, built, self->error);
     if (result != AUR_OK)
         return result;
-    *object = *made;
+    *object = *built;
     const char *const id = aur_xml_attribute_value(self->node, "id");
-    (*made)->name = id != NULL ? id : aur_xml_attribute_value(self->node, "name");
-    (*made)->bsdf = bsdf;
-    (*made)->interior = interior;
-    (*made)->exterior = exterior;
-    (*made)->bounds_media = interior != NULL || exterior != NULL;
-    (*made)->index = (uint32_t)scene->shape_count++;
+    (*built)->name = id != NULL ? id : aur_xml_attribute_value(self->node, "name");
+    (*built)->bsdf = bsdf;
+    (*built)->interior = interior;
+    (*built)->exterior = exterior;
+    (*built)->bounds_media = interior != NULL || exterior != NULL;
+    (*built)->index = (uint32_t)scene->shape_count++;
     if (emitter != NULL) {
-        emitter->shape = (*made)->index;
-        (*made)->emitter = emitter->index;
+        emitter->shape = (*built)->index;
+        (*built)->emitter = emitter->index;
     }
-    return take_attributes(self, *made, emitter);
+    return take_attributes(self, *built, emitter);
 }

@@ -56,13 +56,13 @@ static void add_file(stage *self, aur_xml_node *parent, size_t size, char *data)
 
 /* to_world from columns; the last may be NULL: the origin. */
 static void add_to_world(stage *self, aur_xml_node *parent, const double *x, const double *y, const double *z,
-                         const double *place) {
+                         const double *position) {
     double m[16] = {[15] = 1.0};
     for (size_t d = 0; d < 3; ++d) {
         m[4 * d] = x[d];
         m[4 * d + 1] = y[d];
         m[4 * d + 2] = z[d];
-        m[4 * d + 3] = place != NULL ? place[d] : 0.0;
+        m[4 * d + 3] = position != NULL ? position[d] : 0.0;
     }
     aur_xml_node *const to_world = aur_node_add(&self->nodes, parent, "transform");
     aur_node_set(&self->nodes, to_world, "name", "to_world");
@@ -150,20 +150,20 @@ static void add_ground(stage *self, const double lower[3], const double upper[3]
     const bool endless = self->ground > WIDE;
     const aur_stage_axes *const axes = &self->axes;
     const size_t up = axes->up[2] > 0.5 ? 2 : 1;
-    double place[3], squared = 0.0, right[3], away[3];
+    double position[3], squared = 0.0, right[3], away[3];
     for (size_t d = 0; d < 3; ++d) {
-        place[d] = d == up ? lower[d] : 0.5 * lower[d] + 0.5 * upper[d];
+        position[d] = d == up ? lower[d] : 0.5 * lower[d] + 0.5 * upper[d];
         squared += (upper[d] - lower[d]) * (upper[d] - lower[d]);
     }
     const double half = self->ground * sqrt(squared);
-    place[up] -= 1e-4 * sqrt(squared); /* below surfaces that lie flat on it, so that they stay visible */
+    position[up] -= 1e-4 * sqrt(squared); /* below surfaces that lie flat on it, so that they stay visible */
     for (size_t d = 0; d < 3; ++d) {
         right[d] = half * axes->right[d];
         away[d] = -half * axes->toward[d];
     }
     aur_nodes *const nodes = &self->nodes;
     aur_xml_node *const shape = aur_node_object(nodes, nodes->tree->root, "shape", "rectangle");
-    add_to_world(self, shape, right, away, axes->up, place);
+    add_to_world(self, shape, right, away, axes->up, position);
     aur_xml_node *bsdf = shape;
     if (!endless) {
         size_t size = 0;
@@ -222,12 +222,12 @@ static aur_result set_camera(stage *self) {
     if (result == AUR_OK && added)
         aur_warn_at(self->loader->warnings, self->model->location,
                     "this model has no camera: it is seen from (%.9g, %.9g, %.9g) (--camera)",
-                    scene->sensor.place[0], scene->sensor.place[1], scene->sensor.place[2]);
+                    scene->sensor.position[0], scene->sensor.position[1], scene->sensor.position[2]);
     return result;
 }
 
 static bool is_above(const aur_scene *scene, const double lower[3], const double up[3]) {
-    return !scene->has_sensor || aur_dot3(scene->sensor.place, up) > aur_dot3(lower, up);
+    return !scene->has_sensor || aur_dot3(scene->sensor.position, up) > aur_dot3(lower, up);
 }
 
 aur_result aur_stage_set(aur_loader *loader, const aur_scene_options *options) {

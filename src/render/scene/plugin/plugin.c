@@ -5,19 +5,19 @@
 
 /* A zeroed structure with its descriptor and its data, or NULL. */
 static void *allocate(const aur_plugin_kind *kind, const aur_row *row) {
-    char *const made = calloc(1, kind->size);
+    char *const created = calloc(1, kind->size);
     size_t size = 0;
-    if (made == NULL)
+    if (created == NULL)
         return NULL;
-    memcpy(made, &row, sizeof row);
+    memcpy(created, &row, sizeof row);
     if (kind->data_size == 0)
-        return made;
+        return created;
     memcpy(&size, (const char *)row + kind->data_size, sizeof size);
     void *const data = calloc(1, size + 1);
-    memcpy(made + kind->data, &data, sizeof data);
+    memcpy(created + kind->data, &data, sizeof data);
     if (data != NULL)
-        return made;
-    free(made);
+        return created;
+    free(created);
     return NULL;
 }
 
@@ -32,16 +32,16 @@ aur_result aur_plugin_create(const aur_plugin_kind *kind, aur_parameters *parame
 
 aur_result aur_plugin_create_row(const aur_plugin_kind *kind, const aur_row *row, aur_parameters *parameters,
                                  const void *context, void *object, aur_error *error) {
-    void *made = allocate(kind, row);
-    aur_result result = made != NULL ? kind->fill(parameters, made, context, error)
-                                     : aur_fail_memory_at(error, parameters->location);
+    void *created = allocate(kind, row);
+    aur_result result = created != NULL ? kind->fill(parameters, created, context, error)
+                                        : aur_fail_memory_at(error, parameters->location);
     if (result == AUR_OK)
         result = aur_parameters_finish(parameters, error);
     if (result != AUR_OK) {
-        aur_plugin_destroy(kind, made);
-        made = NULL;
+        aur_plugin_destroy(kind, created);
+        created = NULL;
     }
-    memcpy(object, &made, sizeof made);
+    memcpy(object, &created, sizeof created);
     return result;
 }
 

@@ -33,7 +33,7 @@ static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_err
         sensor->to_world[4 * i] = (float)x[i];
         sensor->to_world[4 * i + 1] = (float)y[i];
         sensor->to_world[4 * i + 2] = (float)p.direction[i];
-        sensor->place[i] = p.origin[i];
+        sensor->position[i] = p.origin[i];
     }
     return AUR_OK;
 }

@@ -51,7 +51,7 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
     for (size_t i = 0; i < 12; ++i)
         sensor->to_world[i] = (float)p.to_world.m[i];
     for (size_t i = 0; i < 3; ++i)
-        sensor->place[i] = p.to_world.m[4 * i + 3];
+        sensor->position[i] = p.to_world.m[4 * i + 3];
     sensor->near_clip = (float)p.near_clip;
     sensor->far_clip = (float)p.far_clip;
     return AUR_OK;
@@ -59,7 +59,7 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
 
 aur_result aur_sensor_recenter(aur_sensor *sensor, const double origin[3], aur_error *error) {
     for (size_t i = 0; i < 3; ++i)
-        sensor->to_world[4 * i + 3] = (float)(sensor->place[i] - origin[i]);
+        sensor->to_world[4 * i + 3] = (float)(sensor->position[i] - origin[i]);
     return sensor->descriptor != NULL && sensor->descriptor->prepare != NULL
                ? sensor->descriptor->prepare(sensor, error)
                : AUR_OK;

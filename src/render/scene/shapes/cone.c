@@ -140,7 +140,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         result = aur_shape_similarity(input, &scale, error);
     if (result != AUR_OK)
         return result;
-    aur_transform_point(&input->to_world, p.p0, shape->place);
+    aur_transform_point(&input->to_world, p.p0, shape->position);
     const aur_vector way = aur_transform_direction_f(
         &input->to_world,
         (aur_vector){(float)(p.p1[0] - p.p0[0]), (float)(p.p1[1] - p.p0[1]), (float)(p.p1[2] - p.p0[2])});

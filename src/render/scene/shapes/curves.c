@@ -134,7 +134,7 @@ typedef struct reader {
 /* Parses "x y z radius", and adds the segment that it completes. `to_world` transforms only positions. */
 static aur_result read_point(reader *self) {
     aur_curves *const curves = self->curves;
-    if (!aur_array_reserve(&curves->places, &self->place_capacity, curves->point_count + 1,
+    if (!aur_array_reserve(&curves->positions, &self->place_capacity, curves->point_count + 1,
                            3 * sizeof(double)) ||
         !aur_array_reserve(&curves->points, &self->point_capacity, curves->point_count + 1,
                            4 * sizeof(float)) ||
@@ -148,7 +148,7 @@ static aur_result read_point(reader *self) {
     if (!(fabs(value[0]) + fabs(value[1]) + fabs(value[2]) <= 1e30) || !(value[3] >= 0.0 && value[3] <= 1e30))
         return aur_mesh_file_fail(&self->file,
                                   "a coordinate is not finite, or beyond 1e30, or a radius is below 0");
-    aur_transform_point(self->to_world, value, &curves->places[3 * curves->point_count]);
+    aur_transform_point(self->to_world, value, &curves->positions[3 * curves->point_count]);
     curves->points[4 * curves->point_count++ + 3] = (float)value[3];
     const size_t needed = curves->smooth ? 4 : 2;
     if (curves->point_count > UINT32_MAX)

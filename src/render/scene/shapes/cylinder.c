@@ -139,7 +139,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         result = scale_across(input, axis, &scale, error);
     if (result != AUR_OK)
         return result;
-    aur_transform_point(&input->to_world, p.p0, shape->place);
+    aur_transform_point(&input->to_world, p.p0, shape->position);
     const aur_vector way = aur_transform_direction_f(&input->to_world, axis);
     shape->length = aur_vector_length(way);
     if (!(shape->length > 0.0f) || !isfinite(shape->length))

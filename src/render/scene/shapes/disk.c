@@ -109,7 +109,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         return result;
     shape->ellipse = true;
     shape->inner = (float)p.inner_radius;
-    aur_transform_point(&input->to_world, (const double[3]){0.0, 0.0, 0.0}, shape->place);
+    aur_transform_point(&input->to_world, (const double[3]){0.0, 0.0, 0.0}, shape->position);
     shape->axis[0] = aur_transform_direction_f(&input->to_world, (aur_vector){1.0f, 0.0f, 0.0f});
     shape->axis[1] = aur_transform_direction_f(&input->to_world, (aur_vector){0.0f, 1.0f, 0.0f});
     shape->axis[2] =

@@ -64,20 +64,21 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     /* A number takes at least two characters. */
     const size_t capacity = strlen(p.vertices) / 2 + 1;
     double *const corners = malloc(capacity * sizeof *corners);
-    aur_result made = corners != NULL ? AUR_OK : aur_fail_memory(error);
-    if (made == AUR_OK) {
+    aur_result status = corners != NULL ? AUR_OK : aur_fail_memory(error);
+    if (status == AUR_OK) {
         const size_t numbers = aur_parse_doubles(p.vertices, corners, capacity);
         bool finite = numbers != SIZE_MAX && numbers >= 9 && numbers % 3 == 0;
         for (size_t i = 0; finite && i < numbers; ++i)
             finite = fabs(corners[i]) <= AUR_REACH;
-        made = finite ? make_mesh(input, numbers / 3, corners, shape, error)
-                      : aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT,
-                                            "'vertices' must be three numbers a corner, within %g, of three "
-                                            "corners or more",
-                                            AUR_REACH);
+        status = finite
+                     ? make_mesh(input, numbers / 3, corners, shape, error)
+                     : aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT,
+                                           "'vertices' must be three numbers a corner, within %g, of three "
+                                           "corners or more",
+                                           AUR_REACH);
     }
     free(corners);
-    return made;
+    return status;
 }
 
 const aur_shape_descriptor aur_shape_polygon = {

@@ -135,7 +135,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         result = aur_shape_similarity(input, &scale, error);
     if (result != AUR_OK)
         return result;
-    aur_transform_point(&input->to_world, p.center, shape->place);
+    aur_transform_point(&input->to_world, p.center, shape->position);
     shape->radius = (float)(p.radius * scale);
     for (size_t i = 0; i < 3; ++i) {
         const aur_vector axis = {i == 0, i == 1, i == 2};

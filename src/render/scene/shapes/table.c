@@ -70,7 +70,7 @@ static void release(void *object) {
     aur_mesh_release(&shape->mesh);
     aur_shape_release_attributes(shape);
     free(shape->file);
-    free(shape->curves.places);
+    free(shape->curves.positions);
     free(shape->curves.points);
     free(shape->curves.firsts);
 }
@@ -102,15 +102,15 @@ static void recenter_curves(aur_shape *shape, const double origin[3]) {
     aur_curves *const curves = &shape->curves;
     for (size_t i = 0; i < curves->point_count; ++i)
         for (size_t k = 0; k < 3; ++k)
-            curves->points[4 * i + k] = (float)(curves->places[3 * i + k] - origin[k]);
-    free(curves->places);
-    curves->places = NULL;
+            curves->points[4 * i + k] = (float)(curves->positions[3 * i + k] - origin[k]);
+    free(curves->positions);
+    curves->positions = NULL;
     for (size_t i = 0; i < curves->segment_count; ++i)
         shape->area += shape->curved->area(shape, i);
 }
 
 aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error) {
-    shape->center = aur_place_from(origin, shape->place);
+    shape->center = aur_place_from(origin, shape->position);
     if (shape->curves.segment_count > 0)
         recenter_curves(shape, origin);
     if (shape->curved != NULL)

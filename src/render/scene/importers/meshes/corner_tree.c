@@ -66,7 +66,7 @@ static void sort_points(aur_corner_tree *tree, size_t count, entry *entries) {
     qsort(entries, count, sizeof *entries, compare_entries);
     for (size_t i = 0; i < count; ++i) {
         tree->sorted[i] = entries[i].point;
-        tree->place[entries[i].point] = (uint32_t)i;
+        tree->index[entries[i].point] = (uint32_t)i;
     }
 }
 
@@ -80,8 +80,8 @@ void aur_corner_tree_build(aur_corner_tree *tree, size_t count, const double (*p
     free_memory += padded(2 * leaves * sizeof *tree->left);
     tree->sorted = (uint32_t *)(void *)free_memory;
     free_memory += padded(leaves * AUR_CORNER_LEAF * sizeof *tree->sorted);
-    tree->place = (uint32_t *)(void *)free_memory;
-    free_memory += padded(count * sizeof *tree->place);
+    tree->index = (uint32_t *)(void *)free_memory;
+    free_memory += padded(count * sizeof *tree->index);
     sort_points(tree, count, (entry *)(void *)free_memory);
     for (size_t node = 2 * leaves; node-- > 1;) {
         double *const box = tree->boxes[node];
@@ -99,11 +99,11 @@ void aur_corner_tree_build(aur_corner_tree *tree, size_t count, const double (*p
 }
 
 void aur_corner_tree_remove(aur_corner_tree *tree, uint32_t point) {
-    const uint32_t place = tree->place[point];
-    size_t node = tree->leaf_count + place / AUR_CORNER_LEAF;
-    const uint32_t last = place / AUR_CORNER_LEAF * AUR_CORNER_LEAF + tree->left[node] - 1;
-    tree->sorted[place] = tree->sorted[last];
-    tree->place[tree->sorted[place]] = place;
+    const uint32_t index = tree->index[point];
+    size_t node = tree->leaf_count + index / AUR_CORNER_LEAF;
+    const uint32_t last = index / AUR_CORNER_LEAF * AUR_CORNER_LEAF + tree->left[node] - 1;
+    tree->sorted[index] = tree->sorted[last];
+    tree->index[tree->sorted[index]] = index;
     for (; node > 0; node /= 2)
         --tree->left[node];
 }

@@ -14,10 +14,10 @@ aur_result aur_mesh_reader_fail(const aur_mesh_reader *reader, const char *forma
     va_start(arguments, format);
     aur_format_list(text, sizeof text, format, arguments);
     va_end(arguments);
-    const aur_location place = {reader->source->path, reader->scanner.line, 0};
-    if (place.line > 0)
-        return aur_fail_at(reader->error, place, AUR_ERROR_FORMAT, "%s", text);
-    return aur_fail_at(reader->error, place, AUR_ERROR_FORMAT, "%s (at byte %zu)", text,
+    const aur_location location = {reader->source->path, reader->scanner.line, 0};
+    if (location.line > 0)
+        return aur_fail_at(reader->error, location, AUR_ERROR_FORMAT, "%s", text);
+    return aur_fail_at(reader->error, location, AUR_ERROR_FORMAT, "%s (at byte %zu)", text,
                        (size_t)(reader->scanner.at - reader->source->data));
 }
 

@@ -221,14 +221,14 @@ static aur_result make_room(aur_ply *self, aur_ply_role first, size_t width, siz
         return aur_fail_memory(self->reader->error);
     for (size_t p = 0; p < self->vertices->property_count; ++p) {
         aur_ply_property *const property = &self->vertices->properties[p];
-        const size_t place = (size_t)property->role - first;
-        if (place >= width)
+        const size_t column = (size_t)property->role - first;
+        if (column >= width)
             continue;
         property->stride = width;
         if (size == sizeof(double))
-            property->doubles = (double *)*array + place;
+            property->doubles = (double *)*array + column;
         else
-            property->values = (float *)*array + place;
+            property->values = (float *)*array + column;
     }
     return AUR_OK;
 }

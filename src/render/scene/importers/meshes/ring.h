@@ -17,7 +17,7 @@ typedef struct aur_corner_tree {
     double (*boxes)[4]; /* box of each node: minimum x and y, maximum x and y */
     uint32_t *left;     /* of nodes: number of remaining points */
     uint32_t *sorted;   /* points by leaves, AUR_CORNER_LEAF each; remaining points come first in a leaf */
-    uint32_t *place;    /* position of each point in `sorted` */
+    uint32_t *index;    /* position of each point in `sorted` */
 } aur_corner_tree;
 
 /* Buffer size in bytes for a tree of `count` points; count below 2^31. */

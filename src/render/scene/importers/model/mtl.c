@@ -17,16 +17,16 @@ aur_mtl_material *aur_mtl_add(aur_mtl_library *library, const char *name, size_t
         free(copy);
         return NULL;
     }
-    aur_mtl_material *const made = &library->materials[library->count++];
-    *made = (aur_mtl_material){.name = copy,
-                               .diffuse = {NAN, NAN, NAN},
-                               .specular = {NAN, NAN, NAN},
-                               .emission = {NAN, NAN, NAN},
-                               .shininess = NAN,
-                               .opacity = NAN,
-                               .roughness = NAN,
-                               .metal = NAN};
-    return made;
+    aur_mtl_material *const added = &library->materials[library->count++];
+    *added = (aur_mtl_material){.name = copy,
+                                .diffuse = {NAN, NAN, NAN},
+                                .specular = {NAN, NAN, NAN},
+                                .emission = {NAN, NAN, NAN},
+                                .shininess = NAN,
+                                .opacity = NAN,
+                                .roughness = NAN,
+                                .metal = NAN};
+    return added;
 }
 
 aur_mtl_material *aur_mtl_find(const aur_mtl_library *library, const char *name) {

@@ -14,14 +14,14 @@ static motion motion_of(const aur_scene_placement *placement, bool z_up) {
     const double angle = placement->turn * 3.14159265358979323846 / 180.0;
     const double c = scale * cos(angle), s = scale * sin(angle);
     const size_t up = z_up ? 2 : 1, first = z_up ? 0 : 2, second = z_up ? 1 : 0;
-    motion made = {.m = {[15] = 1.0}};
-    made.m[5 * up] = scale;
-    made.m[4 * first + first] = made.m[4 * second + second] = c;
-    made.m[4 * first + second] = -s;
-    made.m[4 * second + first] = s;
+    motion result = {.m = {[15] = 1.0}};
+    result.m[5 * up] = scale;
+    result.m[4 * first + first] = result.m[4 * second + second] = c;
+    result.m[4 * first + second] = -s;
+    result.m[4 * second + first] = s;
     for (size_t d = 0; d < 3; ++d)
-        made.m[4 * d + 3] = placement->position[d];
-    return made;
+        result.m[4 * d + 3] = placement->position[d];
+    return result;
 }
 
 static bool is_named(const aur_xml_node *node, const char *tag, const char *name) {
@@ -48,17 +48,17 @@ static void move_value(aur_nodes *nodes, aur_xml_node *node, const motion *by, b
 
 static void move(aur_nodes *nodes, aur_xml_node *object, const motion *by) {
     aur_xml_node *to_world = NULL;
-    bool placed = false;
+    bool moved = false;
     for (aur_xml_node *child = object->first_child; child != NULL; child = child->next) {
         if (is_named(child, "transform", "to_world") || is_named(child, "transform", "toWorld"))
             to_world = child;
         const bool point = is_named(child, "point", "position");
         if (strcmp(object->tag, "emitter") == 0 && (point || is_named(child, "vector", "direction"))) {
             move_value(nodes, child, by, point);
-            placed = true;
+            moved = true;
         }
     }
-    if (placed)
+    if (moved)
         return;
     if (to_world == NULL) {
         to_world = aur_node_add(nodes, object, "transform");
@@ -69,14 +69,14 @@ static void move(aur_nodes *nodes, aur_xml_node *object, const motion *by) {
 
 void aur_nodes_transform(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement,
                          bool z_up) {
-    static const char *const placed[] = {"shape", "emitter", "sensor"};
+    static const char *const moved[] = {"shape", "emitter", "sensor"};
     const motion by = motion_of(placement, z_up);
     for (aur_xml_node *node = first; node != NULL; node = node->next) {
         const char *const type = aur_xml_attribute_value(node, "type");
         if (type == NULL || strcmp(type, "shapegroup") == 0 || strcmp(type, "constant") == 0)
             continue;
-        for (size_t i = 0; i < sizeof placed / sizeof placed[0]; ++i)
-            if (strcmp(node->tag, placed[i]) == 0)
+        for (size_t i = 0; i < sizeof moved / sizeof moved[0]; ++i)
+            if (strcmp(node->tag, moved[i]) == 0)
                 move(nodes, node, &by);
     }
 }

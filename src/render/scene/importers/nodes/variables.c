@@ -26,10 +26,10 @@ static aur_result add(aur_xml_variables *variables, const char *name, const char
         !aur_array_reserve(&variables->items, &variables->capacity, variables->count + 1,
                            sizeof *variables->items))
         return aur_fail_memory(error);
-    size_t place = variables->count++;
-    for (; place > 0 && strlen(variables->items[place - 1].name) < strlen(name); --place)
-        variables->items[place] = variables->items[place - 1];
-    variables->items[place] = item;
+    size_t at = variables->count++;
+    for (; at > 0 && strlen(variables->items[at - 1].name) < strlen(name); --at)
+        variables->items[at] = variables->items[at - 1];
+    variables->items[at] = item;
     return AUR_OK;
 }
 

@@ -130,7 +130,7 @@ typedef struct opening {
 
 /* A rectangle along the luminaire's axes. */
 static bool measure_rectangle(const struct aur_rad_luminaire *luminaire, const aur_rad_primitive *item,
-                              opening *made) {
+                              opening *measured) {
     const double *const p = item->numbers;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, twice[3] = {0.0};
     const size_t count = item->number_count / 3;
@@ -139,7 +139,7 @@ static bool measure_rectangle(const struct aur_rad_luminaire *luminaire, const a
         aur_cross3(p + 3 * i, p + 3 * ((i + 1) % count), cross);
         for (size_t d = 0; d < 3; ++d) {
             twice[d] += cross[d];
-            made->middle[d] += p[3 * i + d] / (double)count;
+            measured->middle[d] += p[3 * i + d] / (double)count;
         }
         for (size_t k = 0; k < 2; ++k) {
             const double along = p[3 * i] * luminaire->turn[0][k] + p[3 * i + 1] * luminaire->turn[1][k] +
@@ -148,30 +148,31 @@ static bool measure_rectangle(const struct aur_rad_luminaire *luminaire, const a
             high[k] = fmax(high[k], along);
         }
     }
-    made->area = 0.5 * aur_length3(twice);
-    made->sizes[0] = high[0] - low[0];
-    made->sizes[1] = high[1] - low[1];
-    return count == 4 && fabs(made->sizes[0] * made->sizes[1] - made->area) <= 1e-3 * made->area;
+    measured->area = 0.5 * aur_length3(twice);
+    measured->sizes[0] = high[0] - low[0];
+    measured->sizes[1] = high[1] - low[1];
+    return count == 4 &&
+           fabs(measured->sizes[0] * measured->sizes[1] - measured->area) <= 1e-3 * measured->area;
 }
 
 static bool measure(const aur_rad *self, const struct aur_rad_luminaire *luminaire,
-                    const aur_rad_primitive *item, opening *made) {
+                    const aur_rad_primitive *item, opening *measured) {
     const double *const x = item->numbers;
     const bool ring = strcmp(item->row->name, "ring") == 0, ball = strcmp(item->row->name, "sphere") == 0;
-    *made = (opening){.round = ring};
+    *measured = (opening){.round = ring};
     if (strcmp(item->row->name, "polygon") == 0 && luminaire->flat && item->number_count % 3 == 0) {
         for (size_t i = 0; i < item->number_count / 3; ++i)
             aur_rad_pose_apply(&self->pose, 1.0, item->numbers + 3 * i);
-        return measure_rectangle(luminaire, item, made);
+        return measure_rectangle(luminaire, item, measured);
     }
     if (!(ring && luminaire->flat) && !(ball && !luminaire->flat))
         return false;
-    memcpy(made->middle, x, sizeof made->middle);
-    aur_rad_pose_apply(&self->pose, 1.0, made->middle);
+    memcpy(measured->middle, x, sizeof measured->middle);
+    aur_rad_pose_apply(&self->pose, 1.0, measured->middle);
     const double inner = ring ? fmin(x[6], x[7]) : 0.0,
                  radius = self->pose.scale * (ring ? fmax(x[6], x[7]) : x[3]);
-    made->area = PI * radius * radius;
-    made->sizes[0] = made->sizes[1] = ring ? 2.0 * radius : 0.0;
+    measured->area = PI * radius * radius;
+    measured->sizes[0] = measured->sizes[1] = ring ? 2.0 * radius : 0.0;
     return inner == 0.0 && radius > 0.0;
 }
 
@@ -200,17 +201,17 @@ aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
                                  const aur_rad_material *material) {
     const struct aur_rad_luminaire *const luminaire = material->luminaire;
     aur_nodes *const nodes = self->nodes;
-    opening made;
-    if (!measure(self, luminaire, item, &made))
+    opening measured;
+    if (!measure(self, luminaire, item, &measured))
         return fail(
             self, item,
             "a measured lamp is read on a polygon (a rectangle along its axes) or ring with flatcorr, or on "
             "a sphere with corr");
     size_t size = 0;
-    char *const text = write_ies(luminaire, &made, &size);
+    char *const text = write_ies(luminaire, &measured, &size);
     if (text == NULL)
         return aur_fail_memory(self->error);
-    const double(*const t)[3] = luminaire->turn, *const m = made.middle;
+    const double(*const t)[3] = luminaire->turn, *const m = measured.middle;
     const double matrix[16] = {t[0][0], t[0][1], t[0][2], m[0], t[1][0], t[1][1], t[1][2], m[1],
                                t[2][0], t[2][1], t[2][2], m[2], 0.0,     0.0,     0.0,     1.0};
     aur_xml_node *const emitter = aur_node_object(nodes, self->parent, "emitter", "photometric");

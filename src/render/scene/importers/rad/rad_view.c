@@ -29,15 +29,21 @@ bool aur_rad_is_view(size_t size, const char *data) {
 }
 
 /* Options with numeric arguments, and the fields that store them. */
-static aur_result read_option(aur_rad *self, aur_rad_word option, view *made) {
+static aur_result read_option(aur_rad *self, aur_rad_word option, view *parsed) {
     double ignored[1];
     const struct {
         const char *name;
         size_t count;
         double *numbers;
-    } rows[] = {{"-vp", 3, made->position},  {"-vd", 3, made->direction},  {"-vu", 3, made->up},
-                {"-vh", 1, made->across},    {"-vv", 1, made->across + 1}, {"-vo", 1, made->clips},
-                {"-va", 1, made->clips + 1}, {"-vs", 1, ignored},          {"-vl", 1, ignored}};
+    } rows[] = {{"-vp", 3, parsed->position},
+                {"-vd", 3, parsed->direction},
+                {"-vu", 3, parsed->up},
+                {"-vh", 1, parsed->across},
+                {"-vv", 1, parsed->across + 1},
+                {"-vo", 1, parsed->clips},
+                {"-va", 1, parsed->clips + 1},
+                {"-vs", 1, ignored},
+                {"-vl", 1, ignored}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         if (!aur_rad_is_word(option, rows[i].name))
             continue;
@@ -61,31 +67,32 @@ static aur_result read_option(aur_rad *self, aur_rad_word option, view *made) {
                : AUR_OK;
 }
 
-static aur_result add_sensor(aur_rad *self, view *made) {
+static aur_result add_sensor(aur_rad *self, view *parsed) {
     aur_nodes *const nodes = self->nodes;
-    const double width = tan(0.5 * DEGREE * made->across[0]), height = tan(0.5 * DEGREE * made->across[1]);
+    const double width = tan(0.5 * DEGREE * parsed->across[0]),
+                 height = tan(0.5 * DEGREE * parsed->across[1]);
     double target[3];
-    if (!(aur_normalize3(made->direction) > 0.0) || !(aur_normalize3(made->up) > 0.0))
+    if (!(aur_normalize3(parsed->direction) > 0.0) || !(aur_normalize3(parsed->up) > 0.0))
         return aur_rad_fail(self, self->line, AUR_ERROR_FORMAT, "view: -vd and -vu must not be 0");
     for (size_t i = 0; i < 2; ++i)
-        if (!(made->across[i] > 0.0 && made->across[i] < 180.0))
+        if (!(parsed->across[i] > 0.0 && parsed->across[i] < 180.0))
             return aur_rad_fail(self, self->line, AUR_ERROR_FORMAT,
                                 "view: -vh and -vv must be from 0 to 180 degrees");
     for (size_t i = 0; i < 3; ++i)
-        target[i] = made->position[i] + made->direction[i];
+        target[i] = parsed->position[i] + parsed->direction[i];
     aur_xml_node *const sensor = aur_node_object(nodes, self->parent, "sensor", "perspective");
-    aur_node_property(nodes, sensor, "float", "fov", "%.17g", made->across[0]);
+    aur_node_property(nodes, sensor, "float", "fov", "%.17g", parsed->across[0]);
     aur_node_property(nodes, sensor, "string", "fov_axis", "x");
-    if (made->clips[0] > 0.0)
-        aur_node_property(nodes, sensor, "float", "near_clip", "%.17g", made->clips[0]);
-    if (made->clips[1] > 0.0)
-        aur_node_property(nodes, sensor, "float", "far_clip", "%.17g", made->clips[1]);
+    if (parsed->clips[0] > 0.0)
+        aur_node_property(nodes, sensor, "float", "near_clip", "%.17g", parsed->clips[0]);
+    if (parsed->clips[1] > 0.0)
+        aur_node_property(nodes, sensor, "float", "far_clip", "%.17g", parsed->clips[1]);
     aur_xml_node *const to_world = aur_node_add(nodes, sensor, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
     aur_xml_node *const lookat = aur_node_add(nodes, to_world, "lookat");
-    aur_node_set_numbers(nodes, lookat, "origin", 3, made->position);
+    aur_node_set_numbers(nodes, lookat, "origin", 3, parsed->position);
     aur_node_set_numbers(nodes, lookat, "target", 3, target);
-    aur_node_set_numbers(nodes, lookat, "up", 3, made->up);
+    aur_node_set_numbers(nodes, lookat, "up", 3, parsed->up);
     aur_xml_node *const film = aur_node_object(nodes, sensor, "film", "hdrfilm");
     const double longer = fmax(width, height);
     aur_node_property(nodes, film, "integer", "width", "%d", (int)fmax(SIDE * width / longer + 0.5, 1.0));
@@ -102,13 +109,13 @@ aur_result aur_rad_read_view(aur_nodes *nodes, aur_xml_node *parent, size_t size
     text[size] = '\0';
     aur_rad self = {
         .nodes = nodes, .parent = parent, .at = text, .end = text + size, .line = 1, .error = nodes->error};
-    view made = {.direction = {0.0, 1.0, 0.0}, .up = {0.0, 0.0, 1.0}, .across = {45.0, 45.0}};
+    view parsed = {.direction = {0.0, 1.0, 0.0}, .up = {0.0, 0.0, 1.0}, .across = {45.0, 45.0}};
     aur_result result = AUR_OK;
     for (aur_rad_word word; result == AUR_OK && aur_rad_next_word(&self, &word);)
-        result = read_option(&self, word, &made);
+        result = read_option(&self, word, &parsed);
     nodes->location.line = 1;
     if (result == AUR_OK)
-        result = add_sensor(&self, &made);
+        result = add_sensor(&self, &parsed);
     free(text);
     return result;
 }

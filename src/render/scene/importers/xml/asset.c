@@ -99,7 +99,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
                        aur_error *error) {
     if (name[0] == '/')
         return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'", name);
-    char places[700] = "", command[160] = "";
+    char folders[700] = "", command[160] = "";
     folder in, first = {0};
     for (size_t i = 0, used = 0; folder_at(document, location.file, i, &in); ++i) {
         if (in.length == 0)
@@ -108,8 +108,8 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
             first = in;
         if (i > 0 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
             continue; /* the main file is in this folder, or is the referencing file: count the folder once */
-        if (used < sizeof places)
-            used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
+        if (used < sizeof folders)
+            used += (size_t)snprintf(folders + used, sizeof folders - used, "%s%.*s", i > 0 ? ", " : "",
                                      (int)in.length, in.path);
         if (command[0] == '\0' && document->confines == NULL)
             read_command(in, name, command, sizeof command);
@@ -117,8 +117,8 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
     if (command[0] != '\0')
         return aur_fail_at(error, location, AUR_ERROR_OPEN,
                            "cannot find '%s'; it is made by the command: %s (looked in %s)", name, command,
-                           places);
-    return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s%s", name, places,
+                           folders);
+    return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s%s", name, folders,
                        searches_above(document, name) ? " and the folders above" : "");
 }
 

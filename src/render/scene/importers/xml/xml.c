@@ -66,7 +66,7 @@ static char *snake_case(aur_arena *arena, const char *name) {
 }
 
 static aur_result make_node(file_reading *reader, const char *tag, const char **attributes,
-                            aur_xml_node **made) {
+                            aur_xml_node **created) {
     aur_xml_tree *const tree = &reader->shared->document->tree;
     aur_error *const error = reader->shared->error;
     size_t count = 0;
@@ -74,7 +74,7 @@ static aur_result make_node(file_reading *reader, const char *tag, const char **
         ++count;
     const bool look_at = reader->legacy && strcmp(tag, "lookAt") == 0;
     tag = aur_arena_copy(&tree->arena, look_at ? "lookat" : tag, strlen(tag));
-    aur_xml_node *const node = *made =
+    aur_xml_node *const node = *created =
         tag != NULL ? aur_xml_node_create(tree, tag, here(reader), count) : NULL;
     if (node == NULL)
         return aur_fail_memory(error);
