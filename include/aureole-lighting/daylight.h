@@ -104,6 +104,11 @@ typedef struct aur_daylight_options {
      * diffuse horizontal irradiance, of equal hours the earlier ones. Overrides `from` and `to`; not together
      * with `schedule`. */
     bool daylight_hours;
+    /* [sensors->count][2][weather->count]: receives the value of each hour and its standard error, NaN in
+     * missing hours. NULL: not used. */
+    double *hourly;
+    /* For each hour of the weather, whether it is evaluated; all values of other hours are 0. NULL: all. */
+    const bool *evaluated;
 } aur_daylight_options;
 
 AUR_EXPERIMENTAL aur_result aur_daylight_options_init(aur_daylight_options *options, aur_error *error)
@@ -163,6 +168,34 @@ AUR_EXPERIMENTAL aur_result aur_daylight_write(const char *path, const char *for
                                                const aur_sensors_view *sensors, size_t result_size,
                                                const aur_daylight *results, aur_error *error)
     AUR_NONNULL(1, 2, 3, 5);
+
+/* --- trackers */
+
+/* A single-axis tracker. */
+typedef struct aur_tracker_options {
+    size_t size;    /* of the caller's struct, so that it can grow */
+    double tilt;    /* of the axis against the horizontal, 0 to 90 degrees */
+    double azimuth; /* direction in which the axis descends, degrees clockwise from north; default: 180 */
+    double limit;   /* largest rotation to each side, up to 90 degrees; default: 60 */
+    /* Width of the modules over the distance of the axes, up to 1: with low sun the modules turn back so that
+     * no row shades the next. 0: no backtracking. */
+    double ground_cover;
+    double step; /* rotations are rounded to multiples of this angle in degrees; 0: 5 */
+} aur_tracker_options;
+
+AUR_EXPERIMENTAL aur_result aur_tracker_options_init(aur_tracker_options *options, aur_error *error)
+    AUR_NONNULL(1);
+
+/* For each hour, the rotation in degrees (right-handed about the azimuth, so positive to the west for an axis
+ * to the south; NaN when the sun is below the horizon), and the normal of the modules in the
+ * scene, 0 0 0 when there is none. rotations[weather->count], or NULL; normals[weather->count][3]. `up` and
+ * `north` are as in aur_daylight_options; NULL: 0. The algorithm is that of pvlib's singleaxis (Lorenzo,
+ * Narvarte and Munoz 2011; Anderson and Mikofski 2020, without a slope across the axes) for the sun's
+ * position at the middle of the sunlit part of the hour. Errors: ARGUMENT, MEMORY, FORMAT (directions). */
+AUR_EXPERIMENTAL aur_result aur_tracker_normals(const aur_scene *scene, const aur_weather_view *weather,
+                                                const aur_tracker_options *tracker, const double up[3],
+                                                const double north[3], double *rotations, double *normals,
+                                                aur_error *error) AUR_NONNULL(1, 2, 3, 7);
 
 /* --- coefficients */
 

@@ -211,10 +211,68 @@ static void test_daylight_hours(void **state) {
     aur_sky_patches_release(&patches);
 }
 
+/* Rotations about a tilted axis, to 1e-9 degrees. Without backtracking no other rotation has a smaller angle
+ * of incidence; with it, the shadow of a row ends at the next one: width times cos(incidence in the plane
+ * across the axes) is the distance times the cosine of the sun's angle to the vertical in it. */
+static void test_trackers(void **state) {
+    (void)state;
+    static const char text[] = "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>";
+    static const double up[3] = {0.0, 0.0, 1.0}, north[3] = {0.0, 1.0, 0.0};
+    static aur_weather_hour hours[HOURS];
+    static double rotations[HOURS], normals[3 * HOURS];
+    aur_weather_view weather = year_of(hours);
+    aur_scene *scene = NULL;
+    aur_scene_options load = {.size = sizeof load};
+    assert_int_equal(aur_scene_load_memory("sphere", sizeof text - 1, text, &load, &scene, NULL), AUR_OK);
+    aur_tracker_options tracker = {.size = sizeof tracker};
+    assert_int_equal(aur_tracker_options_init(&tracker, NULL), AUR_OK);
+    size_t turned_back = 0;
+    for (size_t c = 0; c < 2; ++c) {
+        tracker = (aur_tracker_options){sizeof tracker, 20.0, 150.0, 80.0, c == 0 ? 0.0 : 0.45, 1e-9};
+        assert_int_equal(aur_tracker_normals(scene, &weather, &tracker, up, north, rotations, normals, NULL),
+                         AUR_OK);
+        for (size_t i = 0; i < HOURS; i += 7) {
+            double sun[3], distance, axis[3], across[3], top[3];
+            bool is_up;
+            assert_int_equal(aur_weather_sun(&weather, i, sun, &distance, &is_up, NULL), AUR_OK);
+            assert_true(is_up == !isnan(rotations[i]));
+            const double *const n = normals + 3 * i, t = 20.0 * AUR_PI / 180.0, a = 150.0 * AUR_PI / 180.0;
+            if (!is_up)
+                continue;
+            /* The axis descends to the azimuth. */
+            axis[0] = sin(a) * cos(t), axis[1] = cos(a) * cos(t), axis[2] = -sin(t);
+            across[0] = cos(a), across[1] = -sin(a), across[2] = 0.0;
+            aur_cross3(across, axis, top);
+            assert_near(aur_dot3(n, axis), 0.0, 1e-9);
+            assert_near(aur_dot3(n, n), 1.0, 1e-9);
+            const double x = aur_dot3(sun, across), z = aur_dot3(sun, top), theta = atan2(x, z);
+            const double turn = atan2(aur_dot3(n, across), aur_dot3(n, top));
+            assert_near(turn, rotations[i] * AUR_PI / 180.0, 1e-9);
+            const bool at_limit = fabs(rotations[i]) > 80.0 - 1e-6;
+            const bool shades = c == 1 && cos(theta) < 0.45;
+            turned_back += shades && !at_limit;
+            if (shades && !at_limit)
+                assert_near(0.45 * cos(theta - turn), fabs(cos(theta)), 1e-9);
+            else if (!at_limit)
+                assert_near(turn, theta, 1e-9);
+            assert_true(turn * theta >= 0.0 || fabs(theta) > 0.5 * AUR_PI);
+        }
+    }
+    assert_true(turned_back > 50);
+    tracker.limit = 0.0;
+    assert_int_equal(aur_tracker_normals(scene, &weather, &tracker, up, north, NULL, normals, NULL),
+                     AUR_ERROR_ARGUMENT);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_patches), cmocka_unit_test(test_product),        cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_hours),   cmocka_unit_test(test_daylight_hours),
+        cmocka_unit_test(test_patches),
+        cmocka_unit_test(test_product),
+        cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_hours),
+        cmocka_unit_test(test_daylight_hours),
+        cmocka_unit_test(test_trackers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

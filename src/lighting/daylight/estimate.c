@@ -19,6 +19,7 @@ typedef struct work {
     aur_lit_hours lit;
     double *overcast; /* radiance of the patches per lux outside */
     double *series;   /* NULL: not requested */
+    bool owns_series;
     aur_daylight *results;
 } work;
 
@@ -201,7 +202,9 @@ static aur_result prepare(work *w, const aur_scene *scene, aur_error *error) {
     const aur_sky_model overcast = aur_sky_model_overcast();
     aur_sky_patches_fill(&w->trace.patches, &overcast, 1.0, w->overcast);
     w->overcast[0] = o->ground_albedo / AUR_PI;
-    if (o->series == NULL)
+    w->series = o->hourly;
+    w->owns_series = o->series != NULL && o->hourly == NULL;
+    if (!w->owns_series)
         return AUR_OK;
     if (w->sensors->count <= SIZE_MAX / (2 * w->weather->count * sizeof *w->series))
         w->series = malloc(2 * w->weather->count * w->sensors->count * sizeof *w->series);
@@ -287,7 +290,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
                                                .flush_denormals = true};
         result = aur_parallel_for(&parallel, (sensors.count + BLOCK - 1) / BLOCK, estimate_block, &w, error);
     }
-    if (result == AUR_OK && w.series != NULL)
+    if (result == AUR_OK && options.series != NULL)
         result = aur_daylight_series_write(options.series, &weather, sensors.count, w.series, error);
     if (result == AUR_OK) {
         warn(&w);
@@ -299,7 +302,8 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
     aur_lit_hours_release(&w.lit);
     aur_coefficient_trace_release(&w.trace);
     free(w.overcast);
-    free(w.series);
+    if (w.owns_series)
+        free(w.series);
     return result;
 }
 

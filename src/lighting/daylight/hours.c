@@ -69,27 +69,30 @@ bool aur_weather_days(const aur_weather_hour *hour, double *days) {
            aur_days_since_2000(month == 2 && day == 29 ? 2004 : 2001, month, day, days);
 }
 
-/* At the middle of the part of the hour with the sun above the horizon. */
-static bool place_sun(const aur_weather_view *weather, const aur_weather_hour *hour, hour_sky *sky,
-                      double sun[3]) {
+aur_result aur_weather_sun(const aur_weather_view *weather, size_t index, double sun[3], double *distance,
+                           bool *up, aur_error *error) {
     enum { PIECES = 12 };
+    const aur_weather_hour *const hour = &weather->hours[index];
     double days = 0.0, sum = 0.0;
-    if (!aur_weather_days(hour, &days))
-        return false;
-    size_t up = 0;
+    if (hour->month < 1 || hour->month > 12 || hour->day < 1 || hour->day > 31 || hour->hour < 1 ||
+        hour->hour > 24 || !aur_weather_days(hour, &days))
+        return aur_fail_at(error, place_of(weather, index), AUR_ERROR_ARGUMENT,
+                           "there is no day %d-%d-%d with an hour %d", hour->year, hour->month, hour->day,
+                           hour->hour);
+    size_t count = 0;
     for (size_t i = 0; i < PIECES; ++i) {
         const double clock = (double)(hour->hour - 1) + ((double)i + 0.5) / PIECES - weather->timezone;
         aur_sun_locate(days + (clock - 12.0) / 24.0, clock, weather->latitude, weather->longitude, sun);
         if (sun[2] > 0.0) {
             sum += clock;
-            ++up;
+            ++count;
         }
     }
-    const double middle = up > 0 ? sum / (double)up : (double)hour->hour - 0.5 - weather->timezone;
-    sky->distance =
+    const double middle = count > 0 ? sum / (double)count : (double)hour->hour - 0.5 - weather->timezone;
+    *distance =
         aur_sun_locate(days + (middle - 12.0) / 24.0, middle, weather->latitude, weather->longitude, sun);
-    sky->up = sun[2] > 0.0;
-    return true;
+    *up = sun[2] > 0.0;
+    return AUR_OK;
 }
 
 /* --- irradiances */
@@ -153,18 +156,20 @@ static aur_result find_daylight_hours(work *w, aur_error *error) {
         free(order);
         return aur_fail_memory(error);
     }
-    for (size_t i = 0; i < count; ++i) {
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         hour_sky sky = {.up = false};
         double sun[3];
-        const bool known = place_sun(w->weather, &w->weather->hours[i], &sky, sun) &&
-                           find_irradiances(&w->weather->hours[i], sun[2], &sky);
+        result = aur_weather_sun(w->weather, i, sun, &sky.distance, &sky.up, error);
+        const bool known = result == AUR_OK && find_irradiances(&w->weather->hours[i], sun[2], &sky);
         order[i] = (diffuse_hour){known ? sky.diffuse : 0.0, i};
     }
-    qsort(order, count, sizeof *order, compare_diffuse);
-    for (size_t i = 0; i < count; ++i)
+    if (result == AUR_OK)
+        qsort(order, count, sizeof *order, compare_diffuse);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
         w->daylight[order[i].hour] = i < count / 2;
     free(order);
-    return AUR_OK;
+    return result;
 }
 
 /* --- all hours */
@@ -187,11 +192,9 @@ static aur_result find_hours(work *w, aur_error *error) {
         const aur_weather_hour *const hour = &w->weather->hours[i];
         hour_sky sky = {.up = false};
         aur_lit_hour here = {.hour = i, .counts = counts(w, i)};
-        if (hour->month < 1 || hour->month > 12 || hour->day < 1 || hour->day > 31 || hour->hour < 1 ||
-            hour->hour > 24 || !place_sun(w->weather, hour, &sky, here.sun))
-            return aur_fail_at(error, place_of(w->weather, i), AUR_ERROR_ARGUMENT,
-                               "there is no day %d-%d-%d with an hour %d", hour->year, hour->month, hour->day,
-                               hour->hour);
+        const aur_result result = aur_weather_sun(w->weather, i, here.sun, &sky.distance, &sky.up, error);
+        if (result != AUR_OK)
+            return result;
         if (!find_irradiances(hour, here.sun[2], &sky)) {
             lit->is_unknown[i] = true;
             lit->first_unknown = lit->unknown++ == 0 ? i : lit->first_unknown;
@@ -201,7 +204,7 @@ static aur_result find_hours(work *w, aur_error *error) {
             return aur_fail_at(error, place_of(w->weather, i), AUR_ERROR_ARGUMENT,
                                "irradiances must be 0 or more and finite");
         lit->counted += here.counts;
-        if (!(sky.direct + sky.diffuse > 0.0))
+        if (!(sky.direct + sky.diffuse > 0.0) || (w->options->evaluated != NULL && !w->options->evaluated[i]))
             continue;
         here.sun[2] = fmax(here.sun[2], 0.0);
         aur_normalize3(here.sun);
@@ -239,18 +242,24 @@ static aur_result fill_block(void *context, size_t index) {
     return AUR_OK;
 }
 
-static aur_result check(const aur_weather_view *weather, const aur_daylight_options *options,
-                        aur_error *error) {
+aur_result aur_weather_check(const aur_weather_view *weather, aur_error *error) {
     if (weather->count == 0 || weather->count > 8784 || weather->count % 24 != 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "weather has whole days of 24 hours, 8784 at most, not %zu hours", weather->count);
-    if (!(fabs(weather->latitude) <= 90.0 && fabs(weather->longitude) <= 180.0 &&
-          fabs(weather->timezone) <= 14.0))
-        return aur_fail(
-            error, AUR_ERROR_ARGUMENT,
-            "the place of the weather is none on earth: latitude %g must be within 90, longitude %g within "
-            "180 and the time zone %g within 14",
-            weather->latitude, weather->longitude, weather->timezone);
+    return fabs(weather->latitude) <= 90.0 && fabs(weather->longitude) <= 180.0 &&
+                   fabs(weather->timezone) <= 14.0
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "the place of the weather is none on earth: latitude %g must be within 90, "
+                          "longitude %g within 180 and the time zone %g within 14",
+                          weather->latitude, weather->longitude, weather->timezone);
+}
+
+static aur_result check(const aur_weather_view *weather, const aur_daylight_options *options,
+                        aur_error *error) {
+    const aur_result result = aur_weather_check(weather, error);
+    if (result != AUR_OK)
+        return result;
     if (options->schedule != NULL && options->daylight_hours)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a schedule and daylight_hours exclude each other");
     if (options->schedule != NULL && options->schedule_count != weather->count)

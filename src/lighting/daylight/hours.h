@@ -61,6 +61,13 @@ typedef struct aur_lit_hours {
 
 /* Days from noon of 1 January 2000 to the date of an hour; false for an invalid date. */
 bool aur_weather_days(const aur_weather_hour *hour, double *days);
+/* The sun as (east, north, up) at the middle of the part of an hour with the sun above the horizon, its
+ * distance relative to the mean, and whether it is above the horizon. Errors: ARGUMENT for an invalid date.
+ */
+aur_result aur_weather_sun(const aur_weather_view *weather, size_t index, double sun[3], double *distance,
+                           bool *up, aur_error *error);
+/* Errors: ARGUMENT (invalid locations and counts). */
+aur_result aur_weather_check(const aur_weather_view *weather, aur_error *error);
 
 /* Warns of contradictions in the weather: of the time zone and longitude, of ground, sun and sky irradiances,
  * and of the hours and the sun's position. Also warns of values that the reader has converted. */

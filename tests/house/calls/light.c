@@ -308,6 +308,22 @@ static void years(const aur_scene *scene) {
     accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
            &error);
     require(summary.hours == 4380, "daylight_hours");
+    static double hourly[2 * 8760], normals[3 * 8760];
+    static const bool evaluated[8760] = {true};
+    options.hourly = hourly;
+    options.evaluated = evaluated;
+    accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, NULL, &error),
+           &error);
+    require(hourly[0] > 0.0 && hourly[1] == 0.0 && result.value[AUR_DAYLIGHT_ANNUAL] == hourly[0],
+            "one evaluated hour");
+    aur_tracker_options tracker = {.size = sizeof tracker};
+    aur_tracker_options_init(&tracker, NULL);
+    accept(aur_tracker_normals(scene, &view, &tracker, NULL, NULL, NULL, normals, &error), &error);
+    tracker.limit = 95.0;
+    refuse(aur_tracker_normals(scene, &view, &tracker, NULL, NULL, NULL, normals, &error), AUR_ERROR_ARGUMENT,
+           &error);
+    options.hourly = NULL;
+    options.evaluated = NULL;
     double coefficients[146 * 3], errors[146 * 3];
     options.subdivision = 7;
     refuse(aur_daylight_coefficients(scene, &sensors, &options, coefficients, errors, &error),

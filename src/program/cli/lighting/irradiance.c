@@ -19,6 +19,7 @@ typedef struct irradiance_command {
     aur_irradiance_columns columns;
     illuminance illuminance;
     cli_daylight daylight;
+    cli_bifacial bifacial;
     cli_sky sky;
     cli_definitions definitions;
     cli_common common;
@@ -161,6 +162,7 @@ static void set_daylight_factor(irradiance_command *given) {
 
 /* Copies the options of the single-time estimate to the annual simulation. */
 static aur_result estimate_year(irradiance_command *given, const aur_scene *scene,
+                                const aur_scene_options *load, const char *path,
                                 const aur_sensors_view *sensors, aur_error *error) {
     const aur_irradiance_options *const estimate = &given->estimate;
     aur_daylight_options *const year = &given->daylight.options;
@@ -172,6 +174,17 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
     year->progress = estimate->progress;
     year->warnings = estimate->warnings;
     memcpy(year->luminance, estimate->luminance, sizeof year->luminance);
+    const cli_bifacial_run_options run = {.path = path,
+                                          .weather = given->daylight.weather,
+                                          .load = load,
+                                          .daylight = year,
+                                          .lift = given->sensors != NULL ? given->stand.lift
+                                                                         : given->grid.height};
+    if (given->bifacial.requested) {
+        year->size = sizeof *year;
+        year->no_ground = year->ground_albedo == 0.0;
+        return cli_bifacial_run(&given->bifacial, &run, scene, sensors, given->output, given->format, error);
+    }
     return given->daylight.coefficients
                ? cli_daylight_coefficients(&given->daylight, scene, sensors, given->output, error)
                : cli_daylight_run(&given->daylight, scene, sensors, given->output, given->format,
@@ -223,7 +236,7 @@ static void find_format(const cli_call *call, irradiance_command *given) {
 
 /* False, with a message, if options conflict. */
 static bool check(const cli_call *call) {
-    const irradiance_command *const given = call->options;
+    irradiance_command *const given = call->options;
     const char *conflict = NULL;
     if (given->sensors == NULL && given->grid.target == NULL)
         conflict = "irradiance: no sensors given: expected --sensors POINTS or --grid SURFACE:SPACING";
@@ -235,7 +248,8 @@ static bool check(const cli_call *call) {
         conflict = "irradiance: --particles needs --reflected map or radiosity";
     if (conflict != NULL)
         cli_bad_usage("%s", conflict);
-    return conflict == NULL && cli_daylight_check(call) && cli_sky_check(call);
+    return conflict == NULL && cli_daylight_check(call) && cli_sky_check(call) &&
+           cli_bifacial_check(call, &given->bifacial, given->format);
 }
 
 /* Options of the scene loader. */
@@ -344,8 +358,17 @@ static int run(const cli_call *call) {
         set_illuminance(given);
     if (given->sky.daylight_factor)
         set_daylight_factor(given);
-    const aur_scene_options load = loading(call);
     aur_error error;
+    if (given->bifacial.rotation != NULL) {
+        if (given->definitions.count == CLI_DEFINITION_LIMIT) {
+            cli_bad_usage("irradiance: too many definitions");
+            return 2;
+        }
+        strcpy(given->bifacial.degrees, "0");
+        given->definitions.items[given->definitions.count++] =
+            (aur_definition){given->bifacial.rotation, given->bifacial.degrees};
+    }
+    const aur_scene_options load = loading(call);
     aur_scene *scene = NULL;
     aur_sensors *sensors = NULL;
     given->stand.size = sizeof given->stand;
@@ -361,9 +384,10 @@ static int run(const cli_call *call) {
     if (result == AUR_OK)
         warn_of_positions(given, scene, aur_sensors_get_view(sensors));
     if (result == AUR_OK)
-        result = given->daylight.weather != NULL || given->daylight.coefficients
-                     ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)
-                     : estimate(given, scene, aur_sensors_get_view(sensors), &error);
+        result =
+            given->daylight.weather != NULL || given->daylight.coefficients
+                ? estimate_year(given, scene, &load, call->operands[0], aur_sensors_get_view(sensors), &error)
+                : estimate(given, scene, aur_sensors_get_view(sensors), &error);
     aur_scene_destroy(scene);
     aur_sensors_destroy(sensors);
     return cli_status(result, &error);
@@ -380,6 +404,7 @@ const cli_command cli_command_irradiance = {
     .groups = {{options, 0},
                {cli_sky_options, offsetof(irradiance_command, sky)},
                {cli_daylight_options, offsetof(irradiance_command, daylight)},
+               {cli_bifacial_options, offsetof(irradiance_command, bifacial)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},
                {cli_quiet_option, offsetof(irradiance_command, common)},

@@ -23,6 +23,32 @@ typedef struct cli_daylight {
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
 
+/* Front and rear of solar modules over a year (--bifacial, --tracker). */
+typedef struct cli_bifacial {
+    bool requested;
+    const char *tracker;  /* its axis, or a file of normals; NULL: fixed modules */
+    const char *rotation; /* the variable of the scene that gets the rotation; NULL: none */
+    bool has_pivot;
+    double pivot[3];
+    char degrees[32]; /* its value while a scene is loaded */
+} cli_bifacial;
+extern const cli_option cli_bifacial_options[]; /* of a cli_bifacial */
+
+/* What the year of modules takes from the other options. */
+typedef struct cli_bifacial_run_options {
+    const char *path, *weather;
+    const aur_scene_options *load; /* of a scene that is turned; `rotation` is one of its definitions */
+    const aur_daylight_options *daylight;
+    double lift; /* of the sensors along their normals; the rear ones are as far on the other side */
+} cli_bifacial_run_options;
+
+/* False, with a message, if options conflict; completes `given`. */
+bool cli_bifacial_check(const cli_call *call, cli_bifacial *given, const char *format);
+/* Writes the annual sums of the sensors to `output`, and the series of hours if requested. */
+aur_result cli_bifacial_run(cli_bifacial *given, const cli_bifacial_run_options *run, const aur_scene *scene,
+                            const aur_sensors_view *sensors, const char *output, const char *format,
+                            aur_error *error);
+
 enum { CLI_LUMINAIRE_LIMIT = 256 };
 
 /* The sky at one time (--sky), and luminaires (--lamp). */

@@ -315,6 +315,20 @@ static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
 
 /* --- commands */
 
+/* Replaces the $names in a word of a command by their values, as the shell does for oconv. */
+static aur_result substitute(aur_rad *self, aur_rad_word *word) {
+    char *replaced = NULL;
+    const char *const text = aur_arena_copy(self->scene->arena, word->text, word->length);
+    if (text == NULL)
+        return aur_fail_memory(self->error);
+    const aur_result result = aur_xml_variables_substitute(
+        self->nodes->variables, text, (aur_location){self->nodes->location.file, word->line, 0}, &replaced,
+        self->error);
+    if (result == AUR_OK)
+        *word = (aur_rad_word){replaced, strlen(replaced), word->line};
+    return result;
+}
+
 /* The words of a command line, without the exclamation mark of the first. */
 static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) {
     aur_rad_word word = {command.text + 1, command.length - 1, command.line};
@@ -323,6 +337,11 @@ static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) 
          more = aur_rad_next_of_line(self, &word)) {
         if (!aur_array_reserve(&self->words, &self->word_capacity, *count + 1, sizeof *self->words))
             return aur_fail_memory(self->error);
+        if (self->nodes->variables != NULL && memchr(word.text, '$', word.length) != NULL) {
+            const aur_result result = substitute(self, &word);
+            if (result != AUR_OK)
+                return result;
+        }
         self->words[(*count)++] = word;
     }
     return *count > 0 ? AUR_OK
