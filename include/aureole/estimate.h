@@ -63,8 +63,11 @@ typedef struct aur_estimate_report {
     size_t size;
     uint64_t evaluations;
     size_t levels;
-    bool reached;  /* the target error; false where one more level would exceed `evaluations` */
-    bool constant; /* the first value is the same in all randomisations: its half width is infinite */
+    bool reached;      /* the target error; false where one more level would exceed `evaluations` */
+    bool constant;     /* the first value is the same in all randomisations: its half width is infinite */
+    double resolution; /* 3 / evaluations: fraction of the cube of a feature that the points of all
+                          randomisations sampled with 95 % probability; smaller ones have no effect on the
+                          intervals */
 } aur_estimate_report;
 
 /* Estimates a functional: results[options->values]. Sets that are nets in base 2 are scrambled (Owen 1995),

@@ -63,8 +63,9 @@ typedef struct aur_integrate_options {
      * the components of one: the target is relative to the largest of them. */
     bool separate;
     bool mean; /* the value is divided by the measure of the domain */
-    /* Points of a randomisation on the first level. 0: as many as give 2048 evaluations, and no result below
-     * 8192. Otherwise the caller must know that this many resolve the function. */
+    /* Points of a randomisation on the first level. 0: as many as give 2048 evaluations, or an eighth of
+     * those that the resolution needs, and no result below 8192. Otherwise the caller must know that this
+     * many resolve the function. */
     size_t first;
     size_t peak_count;
     const aur_integrate_peak *peaks; /* a point in several peaks belongs to the first of them */
@@ -76,9 +77,11 @@ typedef struct aur_integrate_options {
      * rules (aur_symmetric_rule) of 256 points (or `first`) and four times as many until two agree. Error and
      * interval are the change from the rule before. Without axis, peaks, set and `separate`. */
     const aur_point_group *group;
-    /* The size of the smallest feature as a fraction of the domain. The integration ends only after a feature
-     * of that size has been sampled with 95 % probability (3 / resolution points in addition to those of
-     * peaks). 0: no such condition; else at least 1e-12 and below 1. Not with a group or a set. */
+    /* The size of the smallest feature as a fraction of the domain, 1e-12 to 1. The integration ends only
+     * after a feature of that size has been sampled with 95 % probability (3 / resolution points in addition
+     * to those of peaks). 0: 1e-5, the size of the sun in the sky; and 1 (no condition) with `first` or
+     * peaks, which tell where the function is narrow. If `evaluations`, or 128 MiB of values, do not suffice
+     * for 1e-5, the result has the doubt AUR_INTEGRATE_UNRESOLVED. Not with a group or a set. */
     double resolution;
 } aur_integrate_options;
 
@@ -97,10 +100,11 @@ typedef enum aur_integrate_reason {
 
 /* Reasons not to trust an interval: bits of aur_integral.doubts. */
 typedef enum aur_integrate_doubt {
-    AUR_INTEGRATE_ALL_EQUAL = 1, /* all values are equal: the interval is infinite */
-    AUR_INTEGRATE_SPARSE = 2,    /* fewer than 64 values differ from the most frequent one */
-    AUR_INTEGRATE_DOMINATED = 4, /* one point contributes more than half of the sum of magnitudes */
-    AUR_INTEGRATE_HEAVY_TAIL = 8 /* the largest values fall as slowly as those of infinite variance do */
+    AUR_INTEGRATE_ALL_EQUAL = 1,  /* all values are equal: the interval is infinite */
+    AUR_INTEGRATE_SPARSE = 2,     /* fewer than 64 values differ from the most frequent one */
+    AUR_INTEGRATE_DOMINATED = 4,  /* one point contributes more than half of the sum of magnitudes */
+    AUR_INTEGRATE_HEAVY_TAIL = 8, /* the largest values fall as slowly as those of infinite variance do */
+    AUR_INTEGRATE_UNRESOLVED = 16 /* too few points to sample a feature of the options' resolution */
 } aur_integrate_doubt;
 
 typedef struct aur_integral {
@@ -115,6 +119,9 @@ typedef struct aur_integral {
     aur_integrate_reason reason;
     unsigned doubts;   /* of aur_integrate_doubt */
     double resolution; /* 3/N: size of features, as a fraction of the domain, sampled with 95 % probability */
+    /* Sphere, hemisphere and axes: the radius of a cap of that size (with the exponent: about +z), 95 % of
+     * which contain a point. Elsewhere 0. */
+    double resolution_degrees;
 } aur_integral;
 
 /* The integral of a function. On the whole sphere and for axes each replicate is a randomly rotated grid

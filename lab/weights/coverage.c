@@ -7,9 +7,18 @@
 #include "families.h"
 #include "program/lab/lab.h"
 
-static const char *const columns[] = {"domain", "function", "variance",    "tolerance",
-                                      "runs",   "holds",    "converged",   "silent",
-                                      "zero",   "doubted",  "evaluations", NULL};
+static const char *const columns[] = {"domain",  "function",    "variance",  "tolerance", "resolution",
+                                      "runs",    "holds",       "converged", "silent",    "zero",
+                                      "doubted", "evaluations", NULL};
+
+/* A caller who excludes narrow features, and one who tells nothing. */
+typedef struct caller_kind {
+    double resolution; /* of the options */
+    uint64_t evaluations;
+    size_t runs, quick_runs;
+} caller_kind;
+
+static const caller_kind callers[] = {{1.0, UINT64_C(1) << 18, 500, 20}, {0.0, UINT64_C(1) << 19, 200, 2}};
 
 /* Over all runs; doubles, so that they can be stored for resuming. */
 typedef struct tally {
@@ -31,7 +40,7 @@ static void count(const aur_integral *found, double expected, double tolerance, 
     t->evaluations += (double)found->evaluations;
 }
 
-static aur_result tally_of(const lab_family *family, double tolerance, size_t runs, tally *t,
+static aur_result tally_of(const lab_family *family, const caller_kind *caller, size_t runs, tally *t,
                            aur_error *error) {
     static const double corner[1] = {0.0};
     const bool sphere = family->domain == AUR_DOMAIN_SPHERE || family->domain == AUR_DOMAIN_HEMISPHERE;
@@ -45,8 +54,9 @@ static aur_result tally_of(const lab_family *family, double tolerance, size_t ru
         aur_integrate_options_init(family->domain, &options, NULL);
         options.dimension = family->dimension;
         options.exponent = family->exponent;
-        options.relative = tolerance;
-        options.evaluations = UINT64_C(1) << 18;
+        options.relative = family->tolerance;
+        options.evaluations = caller->evaluations;
+        options.resolution = caller->resolution;
         options.seed = seed;
         options.peak_count = family->peak != 0.0 ? 1 : 0;
         options.peaks = &peak;
@@ -54,19 +64,19 @@ static aur_result tally_of(const lab_family *family, double tolerance, size_t ru
         const aur_result result = aur_integrate(lab_family_evaluate, &function, &options, &found, error);
         if (result != AUR_OK)
             return result;
-        count(&found, family->integral(family), tolerance, t);
+        count(&found, family->integral(family), family->tolerance, t);
     }
     return AUR_OK;
 }
 
-static aur_result study(lab_run *run, const lab_family *family, double tolerance, aur_error *error) {
-    const size_t runs = lab_run_options(run)->quick ? 20 : 500;
+static aur_result study(lab_run *run, const lab_family *family, const caller_kind *caller, aur_error *error) {
+    const size_t runs = lab_run_options(run)->quick ? caller->quick_runs : caller->runs;
     char key[128];
-    snprintf(key, sizeof key, "%s %g", family->name, tolerance);
+    snprintf(key, sizeof key, "%s %g", family->name, caller->resolution);
     double figures[FIGURES];
     if (!lab_recall(run, key, FIGURES, figures)) {
         tally t;
-        aur_result result = tally_of(family, tolerance, runs, &t, error);
+        aur_result result = tally_of(family, caller, runs, &t, error);
         memcpy(figures, &t, sizeof figures);
         if (result == AUR_OK)
             result = lab_keep(run, key, FIGURES, figures, error);
@@ -75,21 +85,22 @@ static aur_result study(lab_run *run, const lab_family *family, double tolerance
     }
     const char *const texts[] = {aur_domain_name(family->domain), family->name,
                                  family->infinite ? "infinite" : "finite", NULL};
-    double numbers[2 + FIGURES] = {tolerance, (double)runs};
+    double numbers[3 + FIGURES] = {family->tolerance, caller->resolution, (double)runs};
     for (size_t k = 0; k < FIGURES; ++k)
-        numbers[2 + k] = figures[k] / (double)runs;
-    lab_row(run, texts, 2 + FIGURES, numbers);
+        numbers[3 + k] = figures[k] / (double)runs;
+    lab_row(run, texts, 3 + FIGURES, numbers);
     return AUR_OK;
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
     aur_result result = AUR_OK;
-    const size_t tolerances = lab_run_options(run)->quick ? 1 : 2;
-    for (size_t k = 0; k < tolerances; ++k)
-        for (size_t f = 0; f < lab_family_count() && result == AUR_OK; ++f)
-            if (lab_wants(run, lab_family_at(f)->name))
-                result =
-                    study(run, lab_family_at(f), lab_family_at(f)->tolerance * (k == 0 ? 1.0 : 0.1), error);
+    for (size_t k = 0; k < sizeof callers / sizeof *callers; ++k)
+        for (size_t f = 0; f < lab_family_count() && result == AUR_OK; ++f) {
+            const lab_family *const family = lab_family_at(f);
+            const bool again = k > 0 && family->peak != 0.0; /* peaks replace the default resolution */
+            if (!again && lab_wants(run, family->name))
+                result = study(run, family, &callers[k], error);
+        }
     return result;
 }
 

@@ -16,7 +16,7 @@ Domain = Literal[
     "sphere", "hemisphere", "axes", "rotations", "square", "cube", "disk", "ball", "triangle", "tetrahedron"
 ]
 _REGIONS = ("ball", "triangle", "tetrahedron")
-_DOUBTS = ("all equal", "sparse", "dominated", "heavy tail")
+_DOUBTS = ("all equal", "sparse", "dominated", "heavy tail", "unresolved")
 _REASONS = ("tolerance", "evaluations", "constant")
 
 
@@ -31,8 +31,9 @@ class Integral(NamedTuple):
     levels: int
     converged: bool  #: the tolerance was reached
     reason: str = ""  #: "tolerance", "evaluations" or "constant": why the work ended
-    doubts: tuple[str, ...] = ()  #: "all equal", "sparse", "dominated", "heavy tail": why the interval may not hold
+    doubts: tuple[str, ...] = ()  #: "all equal", "sparse", "dominated", "heavy tail", "unresolved": why the interval may not hold
     resolution: float = 0.0  #: with 95 % probability a feature of this share of the domain has been seen
+    resolution_degrees: float = 0.0  #: the radius of a cap of that size; 0: not on the sphere, hemisphere or axes
 
 
 class _Shape(Exception):
@@ -209,14 +210,15 @@ def integrate(
         planes: error and interval are the change from the rule before, an estimate for smooth functions only.
     separate : each of several values is an integral with its own tolerance; else the tolerance is relative to the largest.
     confidence, replicates : of the interval; randomisations, 4 to 64.
-    first : points of a randomisation on the first level; 0: no result comes from fewer than 8192 values.
+    first : points of a randomisation on the first level. Without `resolution` nothing else sets the number of points then.
     resolution : the share of the domain that the smallest feature takes: no result comes before a feature of that size has
-        been seen with 95 % probability, by 3 / resolution points. A sun with a radius of 0.27 degrees has 1.1e-5 of the sky.
+        been seen with 95 % probability, by 3 / resolution points. 0: 1e-5 (524288 values of f), nearly as a sun with a radius
+        of 0.27 degrees in the sky; with `first` or `peaks` no condition. 1: no narrow features, 8192 values suffice.
     evaluations, max_points : two names of the largest number of values of f.
 
     An `IntegrationWarning` comes where the tolerance was not reached or the interval may not hold: all values are equal
-    (the interval is then infinite), few values differ, one point has most of the sum, the tail is heavy. A feature that no
-    point has hit gives no sign: the result's `resolution` gives its size; the parameters `resolution` and `peaks` find it.
+    (the interval is then infinite), few values differ, one point has most of the sum, the tail is heavy, or there are too
+    few points for `resolution`. A feature that no point has hit gives no other sign: the result's `resolution` gives its size.
 
     >>> integral = integrate(lambda u: u[:, 2] ** 2, 1e-6)
     >>> round(integral.value, 6), integral.converged  # 4 pi / 3
@@ -239,7 +241,7 @@ def integrate(
         integrand.shaped(results[:, 0]), integral.error, integrand.widths(results[:, 2]), integral.difference,
         integral.evaluations, integral.levels, integral.reason == lib.AUR_INTEGRATE_TOLERANCE,
         _REASONS[integral.reason], tuple(name for bit, name in enumerate(_DOUBTS) if integral.doubts >> bit & 1),
-        integral.resolution,
+        integral.resolution, integral.resolution_degrees,
     )  # fmt: skip
 
 
@@ -297,6 +299,7 @@ class Estimate(NamedTuple):
     evaluations: int
     levels: int
     converged: bool
+    resolution: float = 0.0  #: a feature of this share of the cube has been seen with 95 % probability; smaller ones may not
 
 
 def estimate(
@@ -314,6 +317,8 @@ def estimate(
     tol, absolute : the half width wanted, relative and absolute; both 0: one level of all points.
     confidence, replicates, first, evaluations : of the intervals; randomisations, 4 to 64; points of a randomisation on
         the first level (0: 128), each level having twice as many; points at most, of all.
+
+    Where features are small, `integrate` is safer: it sees the values of a function, and takes more points by default.
 
     >>> found = estimate(lambda u, w: w @ np.exp(u[:, 0] * u[:, 1]), 2, tol=1e-5)
     >>> found.converged, bool(abs(found.value[0] - 1.31790215) < 3e-5)
@@ -337,4 +342,4 @@ def estimate(
             report,
         )  # fmt: skip
     value, error, half_width = results.T
-    return Estimate(value, error, half_width, report.evaluations, report.levels, report.reached)
+    return Estimate(value, error, half_width, report.evaluations, report.levels, report.reached, report.resolution)

@@ -295,8 +295,8 @@ class Domains(unittest.TestCase):
             kept.append([(array, array.copy()) for array in arrays])
 
         aureole.estimate(lambda u, w: (keep(u, w), float(w @ u[:, 0]))[1], 2, tol=0, evaluations=2**14)
-        aureole.integrate(lambda u: (keep(u), u[:, 2] ** 2)[1], 1e-9, evaluations=2**14)
-        aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 0, absolute=1, axis=(0, 2), evaluations=2**14)
+        aureole.integrate(lambda u: (keep(u), u[:, 2] ** 2)[1], 1e-9, resolution=1)
+        aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 0, absolute=1, axis=(0, 2), first=64)
         aureole.Potential(function=lambda u: (keep(u), max(float(u[2]), 0.0))[1])
         aureole.measure(aureole.points("sobol", 4096, domain="sphere"), "energy", progress=lambda *a: kept.append([]))
         garbage = [np.random.default_rng(0).random(2**k) for k in range(20)]
@@ -509,14 +509,18 @@ class Figures(unittest.TestCase):
             return 1000 + 2e7 * (u @ sun > np.cos(np.deg2rad(0.2666)))
 
         with self.assertWarnsRegex(aureole.IntegrationWarning, "all values of the function are equal"):
-            found = aureole.integrate(sky, domain="hemisphere", exponent=1)
+            found = aureole.integrate(sky, domain="hemisphere", exponent=1, resolution=1)
         self.assertEqual((found.reason, found.doubts, found.error), ("constant", ("all equal",), np.inf))
         found = aureole.integrate(sky, domain="hemisphere", exponent=1, peaks=[(sun, 0.3)])
         self.assertTrue(found.converged)
         self.assertLess(abs(found.value / truth - 1), 0.01)
         with self.assertWarnsRegex(aureole.IntegrationWarning, "the target was not reached"):
-            found = aureole.integrate(lambda u: sky(u) + u[:, 2], domain="hemisphere", resolution=1e-5, max_points=2**19, seed=2)
+            found = aureole.integrate(lambda u: sky(u) + u[:, 2], domain="hemisphere", max_points=2**19, seed=2)
         self.assertGreater(found.evaluations, 3e5)
+        self.assertAlmostEqual(np.cos(np.deg2rad(found.resolution_degrees)), 1 - found.resolution)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, r"a cap with a radius of 1.1 degrees\) may not have been sampled"):
+            found = aureole.integrate(lambda u: u[:, 2] ** 2, domain="hemisphere", max_points=20000)
+        self.assertEqual((found.converged, found.doubts), (False, ("unresolved",)))
         found = aureole.integrate(lambda x: x[:, 0] ** -0.9, 1e-6, domain="cube", dimension=1, peaks=[(0, 0, 0.9)])
         self.assertAlmostEqual(found.value, 10)
 
@@ -534,7 +538,7 @@ class Figures(unittest.TestCase):
         one = aureole.integrate(lambda u: np.exp(1j * u[:, 0]), 1e-6, mean=True)
         self.assertIsInstance(one.value, complex)
         self.assertEqual(aureole.integrate(lambda u: u[:, 2], 0, absolute=1e-3).value.__class__, float)
-        batch = aureole.integrate(lambda x: x[:, :1] ** np.arange(1, 201), domain="square", separate=True)
+        batch = aureole.integrate(lambda x: x[:, :1] ** np.arange(1, 201), domain="square", separate=True, resolution=1)
         self.assertLess((abs(batch.value * np.arange(2, 202) - 1)).max(), 0.03)
 
     def test_integrals_over_every_domain(self):
@@ -596,7 +600,7 @@ class Figures(unittest.TestCase):
                 aureole.integrate(bad)
             with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
                 aureole.average(bad, 100, symmetry="D2h")
-        for options in ({"tol": 0}, {"peaks": [1]}, {"peaks": [((0, 0, 1),)]}, {"domain": "ball", "dimension": 2}, {"resolution": 1}):
+        for options in ({"tol": 0}, {"peaks": [1]}, {"peaks": [((0, 0, 1),)]}, {"domain": "ball", "dimension": 2}, {"resolution": 1.5}):
             with self.assertRaises(aureole.ArgumentError):
                 aureole.integrate(lambda u: u[:, 2], **options)
         with self.assertRaisesRegex(aureole.ArgumentError, "n // 4 = 0 points"):

@@ -133,6 +133,7 @@ static void test_agreement(void **state) {
     assert_int_equal(aur_estimate(below, &bound, &options, &found, &report, NULL), AUR_OK);
     assert_true(!report.reached && report.constant && isinf(found.half_width) && found.value == 0.0);
     assert_true(report.evaluations >= 65536 && report.evaluations < 131072);
+    assert_true(report.resolution == 3.0 / (double)report.evaluations);
 }
 
 static aur_result wrong(void *user, const aur_estimate_points *points, double *values, aur_error *error) {

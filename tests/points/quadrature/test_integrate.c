@@ -99,6 +99,7 @@ static void polynomials(void **state) {
     aur_integrate_options options = {.size = sizeof options};
     aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.relative = 1e-13;
+    options.resolution = 1.0;
     aur_integral integral = {.size = sizeof integral}, again = {.size = sizeof again};
     aur_error error;
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_OK);
@@ -127,8 +128,11 @@ static void ends(void **state) {
     assert_true(isinf(integral.interval) && isinf(integral.error));
     options.evaluations = UINT64_C(1) << 20;
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_OK);
-    assert_true(integral.reason == AUR_INTEGRATE_CONSTANT && integral.evaluations == 65536);
+    assert_true(integral.reason == AUR_INTEGRATE_CONSTANT && integral.evaluations == 1 << 19);
     assert_true(isinf(integral.error) && integral.doubts == AUR_INTEGRATE_ALL_EQUAL);
+    options.resolution = 1.0;
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_OK);
+    assert_true(integral.reason == AUR_INTEGRATE_CONSTANT && integral.evaluations == 65536);
     f = (integrand){.value = smooth, .fail_after = 3};
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, &error), AUR_ERROR_OPEN);
     assert_string_equal(error.message, "the function's own reason");
@@ -240,7 +244,7 @@ static void bad_options(void **state) {
     bad.evaluations = 31;
     refuse(&bad, AUR_ERROR_ARGUMENT);
     bad = good;
-    bad.resolution = 1.0;
+    bad.resolution = 1.5;
     refuse(&bad, AUR_ERROR_ARGUMENT);
     bad.resolution = 1e-7; /* 3e7 points, and 2^22 are allowed */
     refuse(&bad, AUR_ERROR_ARGUMENT);
@@ -444,7 +448,7 @@ static void resolution(void **state) {
     size_t blind = 0, wrong = 0;
     for (options.seed = 0; options.seed < 60; ++options.seed)
         for (size_t k = 0; k < 2; ++k) {
-            options.resolution = k == 0 ? 0.0 : 5e-5;
+            options.resolution = k == 0 ? 1.0 : 5e-5;
             integrand f = {.value = spot};
             aur_integral integral = {.size = sizeof integral};
             assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
@@ -454,9 +458,32 @@ static void resolution(void **state) {
             assert_true(k == 0 || (integral.evaluations >= 60000 && integral.resolution <= 5e-5));
         }
     assert_true(blind > 15 && wrong <= 9);
+    /* By default a spot of 1e-5 or more is sampled. Fewer evaluations than that takes raise a doubt, unless
+     * the caller knows better. */
+    options.resolution = 0.0;
+    for (options.seed = 0; options.seed < 10; ++options.seed)
+        for (size_t k = 0; k < 2; ++k) {
+            options.evaluations = UINT64_C(1) << (k == 0 ? 19 : 15);
+            integrand f = {.value = spot};
+            aur_integral integral = {.size = sizeof integral};
+            assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+            const bool right = fabs(integral.value - expected) < 0.03 * expected;
+            assert_true(right || integral.reason == AUR_INTEGRATE_EVALUATIONS);
+            assert_true(k == 0 || (integral.doubts & AUR_INTEGRATE_UNRESOLVED) != 0);
+            /* 3/N of 2 pi steradians. */
+            const double radius = acos(1.0 - 3.0 / (double)integral.evaluations) * 180.0 / AUR_PI;
+            assert_relative(integral.resolution_degrees, radius, 1e-9);
+        }
+    options.first = 64;
+    integrand flat = {.value = height};
+    aur_integral early = {.size = sizeof early};
+    assert_int_equal(aur_integrate(evaluate, &flat, &options, &early, NULL), AUR_OK);
+    assert_true(early.reason == AUR_INTEGRATE_TOLERANCE && early.evaluations < 8192 && early.doubts == 0);
     /* Equal values are believed as late. */
     integrand f = {.value = zero};
     aur_integral integral = {.size = sizeof integral};
+    options.first = 0;
+    options.evaluations = 1 << 17;
     options.resolution = 3e-5;
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
     assert_true(integral.evaluations >= 100000 && integral.doubts == AUR_INTEGRATE_ALL_EQUAL);

@@ -173,6 +173,7 @@ static aur_result estimate(work *w, aur_error *error) {
         if (w->report.reached || (w->report.constant && w->report.evaluations >= CONSTANT))
             break;
     }
+    w->report.resolution = 3.0 / (double)w->report.evaluations;
     if (w->report.constant)
         aur_warn_at(&o->warnings, (aur_location){0},
                     "the functional has one value for all %zu randomisations: what a point of %llu has not "

@@ -14,8 +14,12 @@
 #include "points/quadrature/integrate/values.h"
 
 /* Default evaluations of the first level and the minimum for a result; evaluations after which a function
- * counts as constant; the largest number of stored values, 1 GiB. */
-static const uint64_t FIRST = 2048, FEWEST = 8192, CONSTANT = 65536, STORED = UINT64_C(1) << 27;
+ * counts as constant; the largest number of stored values, 1 GiB, and 128 MiB for the default resolution. */
+static const uint64_t FIRST = 2048, FEWEST = 8192, CONSTANT = 65536, STORED = UINT64_C(1) << 27,
+                      STORED_BY_DEFAULT = UINT64_C(1) << 24;
+
+/* The default resolution: the sun, with a radius of 0.27 degrees, has 1.1e-5 of the hemisphere. */
+static const double RESOLUTION = 1e-5;
 
 static aur_result check_orbits(const aur_integrate_options *o, aur_error *error) {
     const bool whole = o->region == AUR_REGION_DOMAIN && o->domain == AUR_DOMAIN_SPHERE &&
@@ -30,9 +34,13 @@ static aur_result check_orbits(const aur_integrate_options *o, aur_error *error)
     return AUR_OK;
 }
 
-/* Points that sample the smallest feature with 95 % probability; 0: no size is given. */
+/* Points that sample the smallest feature with 95 % probability. The default is for callers who tell nothing
+ * about the structure of the function. */
 static double seen_points(const aur_integrate_options *o) {
-    return o->resolution > 0.0 ? 3.0 / o->resolution : 0.0;
+    const bool to_target = o->absolute + o->relative > 0.0;
+    if (o->resolution == 0.0 && (!to_target || o->first > 0 || o->peak_count > 0 || o->set != NULL))
+        return 0.0;
+    return 3.0 / (o->resolution > 0.0 ? o->resolution : RESOLUTION);
 }
 
 static aur_result check(const aur_integrate_options *o, aur_error *error) {
@@ -56,15 +64,15 @@ static aur_result check(const aur_integrate_options *o, aur_error *error) {
     if (o->values > AUR_INTEGRATE_VALUES_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the function must have 1 to %d values, not %zu",
                         AUR_INTEGRATE_VALUES_MAX, o->values);
-    if (o->resolution != 0.0 && !(o->resolution >= 1e-12 && o->resolution < 1.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the resolution must be 0, or 1e-12 or more and below 1, not %g", o->resolution);
+    if (o->resolution != 0.0 && !(o->resolution >= 1e-12 && o->resolution <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the resolution must be 0 or from 1e-12 to 1, not %g",
+                        o->resolution);
     if (o->resolution != 0.0 && (o->group != NULL || o->set != NULL))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "a resolution is for neither a symmetry nor a given set");
     if (o->group != NULL)
         return check_orbits(o, error);
-    if (seen_points(o) > (double)o->evaluations)
+    if (o->resolution > 0.0 && seen_points(o) > (double)o->evaluations)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "a resolution of %g takes %.0f evaluations, and %llu are allowed", o->resolution,
                         seen_points(o), (unsigned long long)o->evaluations);
@@ -252,7 +260,7 @@ static bool compare(aur_integration *work) {
     }
     integral->value = work->found[0].value;
     integral->interval = work->found[0].half_width;
-    return met;
+    return work->met = met;
 }
 
 /* --- levels */
@@ -263,8 +271,9 @@ static bool lacks_points(const aur_integration *work) {
     return (double)(work->parts[o->peak_count].count * o->replicates) < seen_points(o);
 }
 
-/* Doubles the points of the relevant strata. False: it would exceed the allowed evaluations. */
-static bool choose(aur_integration *work) {
+/* Doubles the points of the relevant strata. False: it would exceed the allowed evaluations, or `most`
+ * values. */
+static bool choose(aur_integration *work, uint64_t most) {
     double largest = 0.0;
     uint64_t evaluations = 0, stored = 0;
     for (size_t s = 0; s < work->strata; ++s)
@@ -278,7 +287,7 @@ static bool choose(aur_integration *work) {
         if (part->next > work->most)
             return false;
     }
-    return evaluations <= work->options.evaluations && stored <= STORED;
+    return evaluations <= work->options.evaluations && stored <= most;
 }
 
 /* All values were equal: there is no information on other values. */
@@ -301,17 +310,20 @@ static aur_result judge_level(aur_integration *work, bool *last, aur_error *erro
     const bool to_target = o->absolute + o->relative > 0.0;
     judge_all_replicates(work);
     const bool met = compare(work);
-    if (to_target && !met && choose(work))
+    if (to_target && !met && choose(work, STORED))
         return AUR_OK;
     doubts doubt = {0};
     const aur_result result = judge_values(work, &doubt, error);
     if (result != AUR_OK)
         return result;
-    integral->doubts = doubt.bits;
+    const bool lacks = lacks_points(work);
+    integral->doubts = doubt.bits | (lacks ? AUR_INTEGRATE_UNRESOLVED : 0U);
     const uint64_t fewest = doubt.all_equal ? CONSTANT : o->first > 0 ? 0 : FEWEST;
-    const bool enough = integral->evaluations >= fewest && !lacks_points(work);
-    const bool done = met && to_target && doubt.bits == 0 && compare(work) && !doubt.all_equal && enough;
-    *last = done || !to_target || (doubt.all_equal && enough) || !choose(work);
+    const bool enough = integral->evaluations >= fewest && !lacks;
+    const bool reached = met && to_target && doubt.bits == 0 && compare(work) && !doubt.all_equal;
+    const bool done = reached && enough, by_default = reached && o->resolution == 0.0;
+    *last = done || !to_target || (doubt.all_equal && enough) ||
+            !choose(work, by_default ? STORED_BY_DEFAULT : STORED);
     integral->reason = done ? AUR_INTEGRATE_TOLERANCE : AUR_INTEGRATE_EVALUATIONS;
     compare(work);
     if (*last && doubt.all_equal)
@@ -336,25 +348,36 @@ static aur_result integrate(aur_integration *work, aur_error *error) {
     }
     const aur_stratum *const rest = &work->parts[work->options.peak_count];
     work->integral.resolution = 3.0 / (double)(rest->count * work->options.replicates);
+    work->integral.resolution_degrees = aur_shape_share_degrees(&work->options, work->integral.resolution);
     return AUR_OK;
 }
 
 static void warn(const aur_integration *work) {
     static const char *const words[] = {
-        "all values of the function are equal: features smaller than a share of %.2g of the domain may not "
-        "have been seen (peaks with points of their own and more evaluations help)",
-        "fewer than 64 values of the function differ from the others: the error may be larger (resolution: a "
-        "share of %.2g of the domain)",
-        "one point has more than half of the sum of the values: the error may be larger (resolution: a share "
-        "of %.2g of the domain)",
+        "all values of the function are equal: features smaller than %s may not have been sampled (peaks "
+        "with "
+        "separate points and more evaluations help)",
+        "fewer than 64 values of the function differ from the others: the error may be larger (features "
+        "smaller than %s may not have been sampled)",
+        "one point has more than half of the sum of the values: the error may be larger (features smaller "
+        "than "
+        "%s may not have been sampled)",
         "the largest values fall as slowly as those of infinite variance do: the interval may not hold "
-        "(resolution: a share of %.2g of the domain; declare a singularity by the exponent of a peak)"};
+        "(features smaller than %s may not have been sampled; declare a singularity by the exponent of a "
+        "peak)",
+        "features smaller than %s may not have been sampled: allow 3 / resolution evaluations, or set "
+        "`resolution` to the share of the smallest feature (1: none is narrow)"};
     const aur_integral *const integral = &work->integral;
     const aur_integrate_options *const o = &work->options;
+    char size[96];
+    int length = snprintf(size, sizeof size, "a share of %.2g of the domain", integral->resolution);
+    if (integral->resolution_degrees > 0.0)
+        snprintf(size + length, sizeof size - (size_t)length, " (a cap with a radius of %.2g degrees)",
+                 integral->resolution_degrees);
     for (size_t bit = 0; bit < sizeof words / sizeof words[0]; ++bit)
         if (integral->doubts >> bit & 1U)
-            aur_warn_at(&o->warnings, (aur_location){0}, words[bit], integral->resolution);
-    if (integral->reason == AUR_INTEGRATE_EVALUATIONS && o->absolute + o->relative > 0.0)
+            aur_warn_at(&o->warnings, (aur_location){0}, words[bit], size);
+    if (integral->reason == AUR_INTEGRATE_EVALUATIONS && o->absolute + o->relative > 0.0 && !work->met)
         aur_warn_at(&o->warnings, (aur_location){0},
                     "the target was not reached: the error is %.3g after %llu evaluations", integral->error,
                     (unsigned long long)integral->evaluations);
@@ -380,6 +403,10 @@ static size_t first_points(const aur_integration *work) {
     while (first > 2 &&
            (2 * first * o->replicates > o->evaluations || 2 * first * o->replicates * work->values > STORED))
         first /= 2;
+    /* Levels far below those that the resolution needs would end nothing. */
+    while (8 * first * o->replicates <= fmin(seen_points(o), (double)o->evaluations) &&
+           8 * first * o->replicates * work->values <= STORED_BY_DEFAULT)
+        first *= 2;
     return first;
 }
 

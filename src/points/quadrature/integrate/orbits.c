@@ -7,6 +7,7 @@
 #include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/base/vector.h"
+#include "points/quadrature/integrate/shape.h"
 #include "points/quadrature/integrate/values.h"
 
 /* Points of the first rule; points after which a function counts as constant. */
@@ -115,5 +116,6 @@ aur_result aur_integrate_orbits(aur_integrand function, void *user, const aur_in
     integral->value = found[0].value;
     integral->doubts = w.equal ? AUR_INTEGRATE_ALL_EQUAL : 0U;
     integral->resolution = 3.0 / (double)(integral->evaluations > 0 ? integral->evaluations : 1);
+    integral->resolution_degrees = aur_shape_share_degrees(options, integral->resolution);
     return result;
 }

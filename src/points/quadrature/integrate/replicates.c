@@ -12,10 +12,9 @@
 #include "points/quadrature/integrate/shape.h"
 #include "points/sphere/map.h"
 
-/* Points of the last level with weights of a high degree: functions that have not converged by then do not
- * benefit from them. A set of one level may use more. Beyond, degree 6 compensates for the nonuniformity of
- * grids between complete levels. */
-enum { EXACT_POINTS = 1024, EXACT_POINTS_OF_SETS = 16384, EXACT_DEGREE = 6 };
+/* Points whose weights are exact to the degree that they allow; larger levels have the degree of
+ * EXACT_POINTS, which also compensates for the nonuniformity of grids between complete levels. */
+enum { EXACT_POINTS = 1024, EXACT_POINTS_OF_SETS = 16384 };
 
 struct aur_replicates {
     const aur_integrate_options *options;
@@ -189,9 +188,9 @@ aur_result aur_replicates_weights(const aur_replicates *r, size_t count, double 
     aur_exact_options options = {.size = sizeof options};
     aur_exact_options_init(r->options->domain, &options, NULL);
     options.threads = 1;
-    const size_t degree = (size_t)fmax(sqrt((double)count * (axes ? 2.0 : 1.0) / 2.2) - 1.0, 0.0);
     const size_t most = r->options->set != NULL ? EXACT_POINTS_OF_SETS : EXACT_POINTS;
-    options.degree = count > most && degree > EXACT_DEGREE ? EXACT_DEGREE : degree;
+    const double points = (double)(count <= most ? count : EXACT_POINTS) * (axes ? 2.0 : 1.0);
+    options.degree = (size_t)fmax(sqrt(points / 2.2) - 1.0, 0.0);
     aur_result result = aur_directions_points(r->grid, 0, count, 3 * count, xyz, near, error);
     if (r->options->set != NULL && result == AUR_OK) {
         /* The set's weights may be exact to a higher degree already: then they are the result. */

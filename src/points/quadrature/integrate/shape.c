@@ -66,6 +66,15 @@ double aur_shape_measure(const aur_integrate_options *options) {
            (options->exponent > 0.0 ? 1.0 / (options->exponent + 1.0) : aur_shape_cap_height(options));
 }
 
+double aur_shape_share_degrees(const aur_integrate_options *options, double share) {
+    if (!aur_shape_is_directions(options))
+        return 0.0;
+    const double part = fmin(share, 1.0);
+    const double height = options->exponent > 0.0 ? -expm1(log1p(-part) / (options->exponent + 1.0))
+                                                  : part * aur_shape_cap_height(options);
+    return 2.0 * asin(sqrt(0.5 * height)) * 180.0 / AUR_PI;
+}
+
 /* The simplex from the cube (Devroye 1986, ch. V.2): one root per dimension, one after another. */
 static void to_simplex(size_t dimension, const double *cube, double *point) {
     double rest = 1.0;

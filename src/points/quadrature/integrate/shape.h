@@ -18,6 +18,10 @@ size_t aur_shape_dimension(const aur_integrate_options *options);
 /* The measure of the domain without the axis, times the power of the cosine. */
 double aur_shape_measure(const aur_integrate_options *options);
 
+/* The radius in degrees of a cap with this share of the weighted domain, with a power of the cosine one about
+ * +z; 0 for domains without caps. */
+double aur_shape_share_degrees(const aur_integrate_options *options, double share);
+
 /* Maps a uniform point of [0,1)^dimension to one of the domain with the density of the power of the cosine.
  */
 void aur_shape_point(const aur_integrate_options *options, const double *cube, double *point);

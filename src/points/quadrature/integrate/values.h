@@ -32,6 +32,7 @@ typedef struct aur_integration {
     double (*variances)[3]; /* of each value: the mean's, on this level and the two before */
     double quantile;        /* Student's, of the half width in standard errors */
     bool *all_equal;        /* of each value: those of all points */
+    bool met;               /* the targets, by the errors of the level */
     aur_integral integral;
 } aur_integration;
 
