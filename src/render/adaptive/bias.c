@@ -27,8 +27,9 @@ static void differences_of(const aur_replicas *replicas, size_t first, aur_weigh
         d[r][0] = d[r][1] = d[r][2] = 0.0;
         for (size_t p = 0; p < count; ++p) {
             double errors[3], differences[3];
+            aur_replicas_colour(replicas, r, pixels[p], first, errors);
             for (size_t c = 0; c < 3; ++c)
-                errors[c] = step * aur_replicas_value(replicas, r, pixels[p], first + c);
+                errors[c] *= step;
             aur_error_apply(weighing.measure, &weighing.weights[pixels[p]], values[pixels[p]], errors,
                             differences);
             for (size_t c = 0; c < 3; ++c)

@@ -169,23 +169,24 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
 
 /* --- bias */
 
-/* By all measures; irradiance shared by neighbours adds a separate bias. */
-void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
+/* By one measure; irradiance shared by neighbours adds a separate bias. */
+static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
     aur_candidate *const candidate = &adaptive->candidate;
     const double confidence = adaptive->target.confidence;
-    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) {
-        const size_t m =
-            (adaptive->target.measure + k) % AUR_ERROR_MEASURE_COUNT; /* the requested one last */
-        aur_candidate_weigh(candidate, (aur_error_measure)m);
-        const aur_weighing weighing = {(aur_error_measure)m, candidate->weights};
-        const double(*const values)[3] = (const double(*)[3])candidate->values;
-        adaptive->bias[m] =
-            aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
-        if (aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS)
-            adaptive->bias[m] =
-                aur_bias_of_both(adaptive->bias[m], aur_replicas_bias(&candidate->replicas, COLOURS, weighing,
-                                                                      values, confidence));
-    }
+    aur_candidate_weigh(candidate, measure);
+    const aur_weighing weighing = {measure, candidate->weights};
+    const double(*const values)[3] = (const double(*)[3])candidate->values;
+    aur_bias bias = aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
+    if (aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS)
+        bias = aur_bias_of_both(
+            bias, aur_replicas_bias(&candidate->replicas, COLOURS, weighing, values, confidence));
+    adaptive->bias[measure] = bias;
+}
+
+void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
+    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) /* the requested one last */
+        bound_bias_by(adaptive,
+                      (aur_error_measure)((adaptive->target.measure + k) % AUR_ERROR_MEASURE_COUNT));
 }
 
 /* Adds blocks where the differences between them dominate, else samples. */
@@ -195,7 +196,7 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     const bool more_samples =
         bias->of_blocks <= bias->of_replicas || corrections->rendered == corrections->blocks.count;
     const aur_result result = aur_corrections_grow(corrections, more_samples, &adaptive->cancelled, error);
-    aur_adaptive_bound_bias(adaptive);
+    bound_bias_by(adaptive, adaptive->target.measure);
     return result;
 }
 

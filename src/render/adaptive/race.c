@@ -60,9 +60,12 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
     for (size_t b = entry->blocks; b < count; ++b) {
         size_t pixels[PIXELS];
         const size_t pixel_count = pixels_of(race, b, pixels);
-        for (size_t i = 0; i < pixel_count * replicas->count * 3; ++i)
-            values_at(race, entry, b, 0)[i] = (float)aur_replicas_value(
-                replicas, i / 3 % replicas->count, pixels[i / 3 / replicas->count], i % 3);
+        for (size_t i = 0; i < pixel_count * replicas->count; ++i) {
+            double value[3];
+            aur_replicas_colour(replicas, i % replicas->count, pixels[i / replicas->count], 0, value);
+            for (size_t c = 0; c < 3; ++c)
+                values_at(race, entry, b, 0)[3 * i + c] = (float)value[c];
+        }
     }
     entry->blocks = count;
     return AUR_OK;

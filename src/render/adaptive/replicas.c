@@ -73,28 +73,31 @@ void aur_spent_add(aur_spent *sum, const aur_replicas *replicas, uint64_t prepar
     }
 }
 
-double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
-    return aur_film_mean(aur_render_film(replicas->renders[r]), pixel, channel);
+void aur_replicas_colour(const aur_replicas *replicas, size_t r, size_t pixel, size_t first,
+                         double value[3]) {
+    aur_film_colour(aur_render_film(replicas->renders[r]), pixel, first, value);
 }
 
-/* The deviations of the replicas' values of channel R, G or B of a pixel from their mean, which is returned.
- */
-static double deviations_at(const aur_replicas *replicas, size_t pixel, size_t channel, double *deviations) {
-    double mean = 0.0;
+/* The mean of a pixel's channels `first` to `first` + 2 over the replicas, and their deviations from it. */
+static void find_deviations(const aur_replicas *replicas, size_t pixel, size_t first, double mean[3],
+                            double d[3][AUR_REPLICAS_MAX]) {
+    mean[0] = mean[1] = mean[2] = 0.0;
     for (size_t r = 0; r < replicas->count; ++r) {
-        deviations[r] = aur_replicas_value(replicas, r, pixel, channel);
-        mean += deviations[r] / (double)replicas->count;
+        double value[3];
+        aur_replicas_colour(replicas, r, pixel, first, value);
+        for (size_t c = 0; c < 3; ++c) {
+            d[c][r] = value[c];
+            mean[c] += value[c] / (double)replicas->count;
+        }
     }
-    for (size_t r = 0; r < replicas->count; ++r)
-        deviations[r] -= mean;
-    return mean;
+    for (size_t r = 0; r < 3 * replicas->count; ++r)
+        d[r % 3][r / 3] -= mean[r % 3];
 }
 
 void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
-    double deviations[AUR_REPLICAS_MAX];
+    double d[3][AUR_REPLICAS_MAX];
     for (size_t i = 0; i < replicas->pixel_count; ++i)
-        for (size_t c = 0; c < 3; ++c)
-            values[i][c] = deviations_at(replicas, i, c, deviations);
+        find_deviations(replicas, i, 0, values[i], d);
 }
 
 /* Converts the replicas' deviations d[channel][replica] from `mean` to those of a pixel's differences.
@@ -225,10 +228,9 @@ static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighin
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             double d[3][AUR_REPLICAS_MAX], means[3];
-            for (size_t channel = 0; channel < 3; ++channel) {
-                means[channel] = deviations_at(replicas, pixel, channel, d[channel]);
+            find_deviations(replicas, pixel, 0, means, d);
+            for (size_t channel = 0; channel < 3; ++channel)
                 *mean += means[channel];
-            }
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
             const aur_gram of_pixel = gram_of(replicas->count, d);
             if (pixels != NULL)
@@ -319,14 +321,15 @@ bool aur_replicas_clamp(const aur_replicas *replicas) {
 static void develop_pixel(const aur_replicas *replicas, size_t first, size_t step, size_t pixel,
                           size_t channel, float values[6]) {
     const double count = (double)((replicas->count - first + step - 1) / step);
+    double mean[3], d[3][AUR_REPLICAS_MAX];
+    find_deviations(replicas, pixel, channel, mean, d);
     for (size_t c = 0; c < 3; ++c) {
-        double d[AUR_REPLICAS_MAX], squares = 0.0, sum = 0.0;
-        const double mean = deviations_at(replicas, pixel, channel + c, d);
+        double squares = 0.0, sum = 0.0;
         for (size_t r = 0; r < replicas->count; ++r)
-            squares += d[r] * d[r];
+            squares += d[c][r] * d[c][r];
         for (size_t r = first; r < replicas->count; r += step)
-            sum += d[r];
-        values[c] = (float)(step == 1 ? mean : mean + sum / count);
+            sum += d[c][r];
+        values[c] = (float)(step == 1 ? mean[c] : mean[c] + sum / count);
         values[3 + c] = (float)sqrt(squares / (count * (double)(replicas->count - 1)));
     }
 }

@@ -59,8 +59,8 @@ typedef struct aur_weighing {
     const aur_error_weight *weights; /* [pixel_count] */
 } aur_weighing;
 
-/* The value of a channel of a pixel in replica r: the mean of its samples; 0 without samples. */
-double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel);
+/* The values of three channels of a pixel in replica r: the means of its samples; 0 without samples. */
+void aur_replicas_colour(const aur_replicas *replicas, size_t r, size_t pixel, size_t first, double value[3]);
 /* Converts deviations d[channel][replica] of `count` replicas from `mean` to those of a pixel's differences.
  */
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],

@@ -286,11 +286,25 @@ static double variance_of(uint32_t count, double mean, double mean_square) {
     return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
 }
 
+static void find_means(const aur_film *film, size_t pixel, size_t first, size_t count, double *means) {
+    if (film->spread != NULL) {
+        aur_spread_values(film, pixel, first, count, means);
+        return;
+    }
+    const uint32_t samples = film->counts[pixel];
+    const double *const sums = &film->sums[pixel * film->layout.channel_count + first];
+    for (size_t c = 0; c < count; ++c)
+        means[c] = samples > 0 ? sums[c] / (double)samples : 0.0;
+}
+
 double aur_film_mean(const aur_film *film, size_t pixel, size_t channel) {
-    if (film->spread != NULL)
-        return aur_spread_value(film, pixel, channel);
-    const uint32_t count = film->counts[pixel];
-    return count > 0 ? film->sums[pixel * film->layout.channel_count + channel] / (double)count : 0.0;
+    double mean;
+    find_means(film, pixel, channel, 1, &mean);
+    return mean;
+}
+
+void aur_film_colour(const aur_film *film, size_t pixel, size_t first, double mean[3]) {
+    find_means(film, pixel, first, 3, mean);
 }
 
 static double channel_value(const aur_film *film, size_t pixel, size_t channel) {

@@ -246,16 +246,18 @@ static double sum_of(const aur_spread *spread, const reaching_cell *at, size_t c
            (double)spread->given[at->cell];
 }
 
-double aur_spread_value(const aur_film *film, size_t pixel, size_t channel) {
+void aur_spread_values(const aur_film *film, size_t pixel, size_t first, size_t count, double *values) {
     const aur_spread *const spread = film->spread;
     reaching_cell cells[CELLS_MAX];
-    const size_t count = find_cells(film, pixel, cells);
-    double sum = 0.0, weight = 0.0;
-    for (size_t i = 0; i < count; ++i) {
-        sum += sum_of(spread, &cells[i], channel);
+    const size_t found = find_cells(film, pixel, cells);
+    double sums[3] = {0.0}, weight = 0.0;
+    for (size_t i = 0; i < found; ++i) {
+        for (size_t c = 0; c < count; ++c)
+            sums[c] += sum_of(spread, &cells[i], first + c);
         weight += sum_of(spread, &cells[i], spread->channels - 1);
     }
-    return weight != 0.0 ? sum / weight : 0.0;
+    for (size_t c = 0; c < count; ++c)
+        values[c] = weight != 0.0 ? sums[c] / weight : 0.0;
 }
 
 /* A value is the ratio of sums over the cells, s / w. Its variance, to first order, is that of s - (value) w
@@ -264,14 +266,15 @@ bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
     const aur_spread *const spread = film->spread;
     reaching_cell cells[CELLS_MAX];
     const size_t count = find_cells(film, pixel, cells);
-    double weight = 0.0;
+    double values[3], weight = 0.0;
     bool good = count > 0 && spread->moments != NULL;
+    aur_spread_values(film, pixel, 0, 3, values);
     for (size_t i = 0; i < count; ++i) {
         weight += sum_of(spread, &cells[i], spread->channels - 1);
         good = good && spread->steps[cells[i].cell] > 1;
     }
     for (size_t c = 0; good && c < 3; ++c) {
-        const double value = aur_spread_value(film, pixel, c);
+        const double value = values[c];
         squares[c] = 0.0;
         for (size_t i = 0; i < count; ++i) {
             const size_t cell = cells[i].cell;

@@ -19,6 +19,7 @@ typedef struct gather_tile {
     const aur_view *view;
     size_t x, y;                                            /* of the tile's corner in the image */
     size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the image */
+    bool chosen;                                            /* columns, rows and the arrangement are set */
     bool only_new; /* shade only strata of which a pixel has no radiance yet */
     aur_gather_points surface_points;
     aur_gather_sums sums;
@@ -74,13 +75,17 @@ static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
 static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     aur_gather_points *const surface_points = &work->surface_points;
     const aur_gather_plan *const plan = surface_points->plan;
-    surface_points->group = group;
+    uint64_t arrangement = 0;
     surface_points->index = index;
-    surface_points->arrangement = 0;
     if (plan->policy.share != AUR_SHARE_BLOCKS && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
-        surface_points->arrangement = aur_group_arrangement(
+        arrangement = aur_group_arrangement(
             aur_hash2(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile)));
-    aur_group_pixels(surface_points->arrangement, group, work->x, work->y, work->columns, work->rows);
+    if (work->chosen && group == surface_points->group && arrangement == surface_points->arrangement)
+        return;
+    work->chosen = true;
+    surface_points->group = group;
+    surface_points->arrangement = arrangement;
+    aur_group_pixels(arrangement, group, work->x, work->y, work->columns, work->rows);
 }
 
 static void begin(gather_tile *work, uint32_t lanes) {
@@ -261,6 +266,13 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
 
 /* --- the tile */
 
+static bool any_marked(const uint32_t marks[AUR_GROUP_COUNT]) {
+    uint32_t all = 0;
+    for (size_t group = 0; group < AUR_GROUP_COUNT; ++group)
+        all |= marks[group];
+    return all != 0;
+}
+
 /* Samples that measure how much pixels see of the surfaces at an edge. Edges that do not involve a light get
  * a small part of them. */
 static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
@@ -272,8 +284,10 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     aur_gather_find_edges(work->surface_points.plan, work->view, work->x, work->y, work->strata,
                           tile->begins == NULL, &edges);
     work->only_new = true;
+    const uint32_t plain = any_marked(edges.any) ? count / PLAIN_EDGE_PART : 0;
+    const uint32_t end = any_marked(edges.lights) ? count : plain;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
-        for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t i = 0; i < end; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
             choose(work, group, tile->first + tile->count + i);
