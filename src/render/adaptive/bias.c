@@ -14,6 +14,7 @@ enum { FIRST_BLOCKS = 54 };
 /* Over blocks. */
 typedef struct bias_sums {
     aur_moments products;              /* moments of the blocks' mean products */
+    aur_moments squares;               /* and of the squares of the replicas' mean */
     double replicas[AUR_REPLICAS_MAX]; /* sums of products of each replica with the others */
 } bias_sums;
 
@@ -40,7 +41,7 @@ static void differences_of(const aur_replicas *replicas, size_t first, aur_weigh
 
 static void add_block(size_t count, double d[AUR_REPLICAS_MAX][3], bias_sums *sums) {
     const double others = (double)(count - 1);
-    double all[3] = {0.0}, products = 0.0;
+    double all[3] = {0.0}, products = 0.0, square = 0.0;
     for (size_t r = 0; r < count; ++r)
         for (size_t c = 0; c < 3; ++c)
             all[c] += d[r][c];
@@ -51,7 +52,10 @@ static void add_block(size_t count, double d[AUR_REPLICAS_MAX][3], bias_sums *su
         sums->replicas[r] += product;
         products += product / (double)count;
     }
+    for (size_t c = 0; c < 3; ++c)
+        square += all[c] * all[c] / (double)(count * count);
     aur_moments_add(&sums->products, products);
+    aur_moments_add(&sums->squares, square);
 }
 
 static bool has_samples(const aur_replicas *replicas, size_t count, const size_t *pixels) {
@@ -77,6 +81,13 @@ static aur_bias finish(const bias_sums *sums, size_t replica_count, size_t all, 
     const double half = fmax(bias.of_replicas, bias.of_blocks);
     bias.low = fmax(bias.estimate - half, 0.0);
     bias.high = fmax(bias.estimate, 0.0) + half;
+    const double square = sums->squares.mean / 3.0;
+    const double of_squares = aur_moments_interval(&sums->squares, confidence) / 3.0;
+    if (square + of_squares < bias.high) {
+        bias.high = square + of_squares;
+        bias.of_replicas = square - fmax(bias.estimate, 0.0);
+        bias.of_blocks = of_squares;
+    }
     return bias;
 }
 

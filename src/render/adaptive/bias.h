@@ -19,7 +19,9 @@ typedef struct aur_bias {
  * pixels without samples are excluded. With D_r the mean difference of a block in the r-th replica, the mean
  * of D_r D_s over r != s has the square of the block's bias as its expectation, for any noise. The interval
  * is the wider of two. One is Student's t over the replicas by the jackknife (right if the bias is larger
- * than the noise, too wide if it is smaller); the other is over the blocks. `values` are the image's. */
+ * than the noise, too wide if it is smaller); the other is over the blocks. Its upper end is that of the
+ * square of the replicas' mean, if that is smaller: the square of the bias of these replicas' own maps, whose
+ * noise no number of samples removes, and of the samples' noise, which they do. `values` are the image's. */
 aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
                            const double (*values)[3], double confidence);
 
