@@ -17,8 +17,8 @@ static double radiance(const double u[3], double azimuth) {
     return exp(2.0 * (0.6 * (u[0] * cos(azimuth) + u[1] * sin(azimuth)) + 0.8 * u[2]));
 }
 
-/* The mean square of the errors; `truth` is the mean of many directions. */
-static int gather(size_t count, bool optimal, double truth, double *found) {
+/* The mean square of the errors; `reference` is the mean of many directions. */
+static int gather(size_t count, bool optimal, double reference, double *found) {
     aur_directions_options points = {.size = sizeof points};
     aur_directions_options_init(count, AUR_DOMAIN_HEMISPHERE, &points, NULL);
     points.lobe.exponent = 1.0;
@@ -38,7 +38,7 @@ static int gather(size_t count, bool optimal, double truth, double *found) {
             aur_rotation_apply(&turn, 1, u);
             sum += weights[i] * radiance(u, 0.001 * (double)pixel);
         }
-        square += (truth > 0.0 ? (sum / truth - 1.0) * (sum / truth - 1.0) : sum) / PIXELS;
+        square += (reference > 0.0 ? (sum / reference - 1.0) * (sum / reference - 1.0) : sum) / PIXELS;
     }
     free(xyz);
     *found = square;
@@ -47,9 +47,9 @@ static int gather(size_t count, bool optimal, double truth, double *found) {
 
 int main(int argc, char **argv) {
     const size_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 64;
-    double truth, equal, optimal;
-    if (gather(8192, false, 0.0, &truth) || gather(count, false, truth, &equal) ||
-        gather(count, true, truth, &optimal))
+    double reference, equal, optimal;
+    if (gather(8192, false, 0.0, &reference) || gather(count, false, reference, &equal) ||
+        gather(count, true, reference, &optimal))
         return 1;
     printf("equal %.3e optimal %.3e\n", sqrt(equal), sqrt(optimal));
     return 0;

@@ -28,7 +28,7 @@ typedef struct writer {
 
 /* --- files */
 
-static void keep(writer *w, aur_result result) {
+static void store_error(writer *w, aur_result result) {
     if (w->result == AUR_OK)
         w->result = result;
 }
@@ -88,7 +88,7 @@ static void end_group(writer *w, const char *name, bool textured) {
         else
             fprintf(file.stream, "f %zu %zu %zu\n", a, b, c);
     }
-    keep(w, sheet_write(&file, path, &w->error));
+    store_error(w, sheet_write(&file, path, &w->error));
     const char *const transform = strcmp(name, "ceiling") == 0     ? TO_WORLD("x=\"$ceiling\"")
                                   : strncmp(name, "wall-", 5) == 0 ? TO_WORLD("z=\"$walls\"")
                                                                    : "";
@@ -107,7 +107,7 @@ static void end_scene(writer *w, size_t triangles) {
         return;
     }
     fprintf(w->analytic.stream, "</scene>\n");
-    keep(w, sheet_write(&w->analytic, w->path, &w->error));
+    store_error(w, sheet_write(&w->analytic, w->path, &w->error));
     if (w->triangle_count == triangles || w->result != AUR_OK)
         return;
     w->result = AUR_ERROR_INTERNAL;
@@ -296,7 +296,7 @@ static profile make_profile(size_t points, const double radius[], const double h
     return p;
 }
 
-static void write_lamps(writer *w) {
+static void write_luminaires(writer *w) {
     group *const g = &w->group;
     const vec base = {1.45, 4.25, 0.0};
     begin_group(w);
@@ -347,7 +347,7 @@ static void write_living_room(writer *w) {
     write_seats(w);
     write_woodwork(w);
     write_books(w);
-    write_lamps(w);
+    write_luminaires(w);
     write_crockery(w);
     begin_group(w);
     add_box(g, (span){1.9, 4.5}, (span){1.7, 3.6}, (span){gap, gap + 0.012});

@@ -89,10 +89,10 @@ class renderer {
         aur_error found{};
         aur_image *created = nullptr;
         const aur_result result = aur_renderer_render(owned_.get(), &options, &created, statistics, &found);
-        image picture(created); /* that of a render that was cancelled is freed */
+        image rendered(created); /* that of a render that was cancelled is freed */
         if (result != AUR_OK)
             throw error(found);
-        return picture;
+        return rendered;
     }
     aur_renderer *get() const noexcept {
         return owned_.get();

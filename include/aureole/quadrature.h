@@ -369,7 +369,7 @@ AUR_API aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_
 /* The importance re-weighting of Marques 2018 section 5.1: weights for p from weights for p', both
  * normalised: weights[i] *= p(u_i)/p'(u_i). Where p' is 0 the weight must be 0 and remains 0; else ARGUMENT.
  */
-AUR_API aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential *fitted,
+AUR_API aur_result aur_weights_reweight(const aur_potential *target, const aur_potential *fitted,
                                         size_t count, const double *xyz, double *weights, aur_error *error)
     AUR_NONNULL(1, 2, 4, 5);
 

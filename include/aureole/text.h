@@ -28,8 +28,8 @@ AUR_API int aur_print(FILE *stream, const char *format, ...) AUR_NONNULL(1, 2) A
 
 /* --- names */
 
-/* The name nearest to `wanted` among `count` names by edit distance, or NULL when none is near enough. */
-AUR_API const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names)
+/* The name nearest to `given` among `count` names by edit distance, or NULL when none is near enough. */
+AUR_API const char *aur_nearest_name(const char *given, size_t count, const char *const *names)
     AUR_NONNULL(1);
 
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf

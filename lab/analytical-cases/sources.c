@@ -102,10 +102,10 @@ static void reflection(lab_case *test_case, double albedo) {
     lab_case_put(test_case, "<emitter type='directional'><vector name='direction' x='0' y='1' z='-1'/><float "
                             "name='irradiance' value='1'/></emitter>");
     lab_case_patch(test_case, &wall, inside);
-    const double straight = sqrt(0.5), factor = albedo * straight / LAB_PI;
+    const double slanted = sqrt(0.5), factor = albedo * slanted / LAB_PI;
     for (size_t i = 0; i < 20; ++i) {
         const lab_receiver at = up_at(0.5 * (double)(i % 5), 0.45 * (double)(i / 5), 0.0);
-        lab_case_point(test_case, &at, straight + factor * lab_patch_closed(&at, &wall),
+        lab_case_point(test_case, &at, slanted + factor * lab_patch_closed(&at, &wall),
                        cos(0.25 * LAB_PI) + factor * lab_patch_smooth(&at, &wall, NULL, NULL));
     }
 }

@@ -88,7 +88,7 @@ typedef struct study {
     lab_run *run;
     const lab_named_integrand *f;
     size_t sizes, seeds;
-    double truth;
+    double reference;
     double random[MOST_SIZES]; /* mean square errors of random points */
 } study;
 
@@ -102,7 +102,7 @@ static aur_result measure(const study *s, const char *set, size_t count, double 
         const aur_result result = estimate(s->f, set, count, 1 + k, &mean, error);
         if (result != AUR_OK)
             return result;
-        squares[k] = (mean - s->truth) * (mean - s->truth);
+        squares[k] = (mean - s->reference) * (mean - s->reference);
     }
     return lab_keep(s->run, key, s->seeds, squares, error);
 }
@@ -147,11 +147,11 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (!(seeds >= 2.0 && seeds <= MOST_SEEDS))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "seeds must be 2 to %d", MOST_SEEDS);
     s.seeds = options->quick && seeds > 16.0 ? 16 : (size_t)seeds;
-    s.truth = s.f->mean;
+    s.reference = s.f->mean;
     aur_result result = AUR_OK;
-    if (isnan(s.truth)) {
-        result = estimate(s.f, "sobol", options->quick ? 1 << 16 : 1 << 20, 12345, &s.truth, error);
-        lab_note(run, "the mean %.9g is that of many Sobol' points", s.truth);
+    if (isnan(s.reference)) {
+        result = estimate(s.f, "sobol", options->quick ? 1 << 16 : 1 << 20, 12345, &s.reference, error);
+        lab_note(run, "the mean %.9g is that of many Sobol' points", s.reference);
     }
     const bool sphere = s.f->domain == AUR_DOMAIN_SPHERE || s.f->domain == AUR_DOMAIN_HEMISPHERE;
     const char *const sets[] = {"random",    "jittered", "halton",

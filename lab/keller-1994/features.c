@@ -157,10 +157,10 @@ static aur_result measure(feature_study *s, const setting *of, double values[MOS
             values[k] = lab_mean_product(image, s->references[0], s->references[1]);
         if (result == AUR_OK && k == 0) {
             const lab_image_position position = {.view = s->feature->name, .name = of->name, .exposure = 1.0};
-            const lab_image_position truth = {s->feature->name, "reference", true, 1.0};
+            const lab_image_position reference_position = {s->feature->name, "reference", true, 1.0};
             result = lab_picture(s->run, &position, image, error);
             if (result == AUR_OK)
-                result = lab_picture(s->run, &truth, s->references[0], error);
+                result = lab_picture(s->run, &reference_position, s->references[0], error);
         }
         aur_image_destroy(image);
     }

@@ -33,8 +33,9 @@ static aur_result solve(const lab_run *run, const aur_scene *scene, double epsil
     return result;
 }
 
-static aur_result picture(lab_run *run, const lab_stage *stage, const char *integrator, size_t width,
-                          size_t samples, uint64_t seed, aur_image **image, double *mean, aur_error *error) {
+static aur_result render_image(lab_run *run, const lab_stage *stage, const char *integrator, size_t width,
+                               size_t samples, uint64_t seed, aur_image **image, double *mean,
+                               aur_error *error) {
     const lab_rendering how = {.renderer = stage->renderer,
                                .integrator = integrator,
                                .width = width,
@@ -66,11 +67,11 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
                  epsilon, quick ? 8 : 32);
         aur_result result = solve(run, stage->scene, epsilon, &found, error);
         if (result == AUR_OK)
-            result = picture(run, stage, integrator, width, quick ? 4 : 16, 0, &images[0], &values[RADIOSITY],
-                             error);
+            result = render_image(run, stage, integrator, width, quick ? 4 : 16, 0, &images[0],
+                                  &values[RADIOSITY], error);
         for (size_t k = 0; k < SEEDS && result == AUR_OK; ++k)
-            result =
-                picture(run, stage, "path", width, quick ? 8 : 32, 1 + k, &images[1 + k], &means[k], error);
+            result = render_image(run, stage, "path", width, quick ? 8 : 32, 1 + k, &images[1 + k], &means[k],
+                                  error);
         if (result == AUR_OK) {
             lab_image_position position = {.view = name, .name = "radiosity", .exposure = 0.5};
             result = lab_picture(run, &position, images[0], error);

@@ -70,7 +70,7 @@ static aur_result deviations(const lab_run *run, const char *text, double found[
 }
 
 /* The room with a mirror against path tracing: the mean's difference in percent, and that mean's noise. */
-static aur_result picture(lab_run *run, double off[2], aur_error *error) {
+static aur_result compare_images(lab_run *run, double off[2], aur_error *error) {
     const bool quick = lab_run_options(run)->quick;
     aur_image *images[3] = {NULL};
     double means[3][4] = {{0}};
@@ -98,9 +98,9 @@ static aur_result picture(lab_run *run, double off[2], aur_error *error) {
             result =
                 lab_picture(run, &(lab_image_position){"mirror", names[k], k == 1, 0.0}, images[k], error);
     }
-    const double truth = 0.5 * (means[1][3] + means[2][3]);
-    off[0] = 100.0 * (means[0][3] / truth - 1.0);
-    off[1] = 50.0 * fabs(means[1][3] - means[2][3]) / truth;
+    const double reference = 0.5 * (means[1][3] + means[2][3]);
+    off[0] = 100.0 * (means[0][3] / reference - 1.0);
+    off[1] = 50.0 * fabs(means[1][3] - means[2][3]) / reference;
     for (size_t k = 0; k < 3; ++k)
         aur_image_destroy(images[k]);
     lab_stage_close(&stage);
@@ -117,7 +117,7 @@ static aur_result run(lab_run *run, aur_error *error) {
                     (const double[]){(double)keller_sizes[n], found[k][n]});
     }
     if (result == AUR_OK)
-        result = picture(run, off, error);
+        result = compare_images(run, off, error);
     if (result != AUR_OK)
         return result;
     const size_t last = KELLER_SIZES - 1;

@@ -155,7 +155,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     return result;
 }
 
-const lab_experiment lab_picture_coverage = {
+const lab_experiment lab_image_coverage = {
     .name = "picture-coverage",
     .reproduces = "docs/lighting-accuracy.md",
     .summary = "how often intervals of images' errors and of measures of randomised sets hold",

@@ -36,7 +36,7 @@ typedef struct study {
     size_t seeds, reference_directions, pattern_count;
     marques_pattern patterns[MARQUES_PATTERNS];
     marques_gathering form;
-    aur_image *references[2], *pictures[MARQUES_PATTERNS];
+    aur_image *references[2], *images[MARQUES_PATTERNS];
     size_t others, better; /* rows; rows in which spherical Fibonacci has the smaller mean error */
 } study;
 
@@ -60,7 +60,7 @@ static aur_result measure(study *s, size_t index, double *squares, aur_error *er
         if (result == AUR_OK)
             squares[k] = lab_mean_product(image, s->references[0], s->references[1]);
         if (k == 0)
-            s->pictures[index] = image;
+            s->images[index] = image;
         else
             aur_image_destroy(image);
     }
@@ -69,7 +69,7 @@ static aur_result measure(study *s, size_t index, double *squares, aur_error *er
     char name[128];
     snprintf(name, sizeof name, "%.80s%s%s", pattern->set, index > 0 ? " " : "",
              index > 0 ? pattern->label : "");
-    return put(s, name, s->pictures[index], error);
+    return put(s, name, s->images[index], error);
 }
 
 /* --- the sheet */
@@ -97,10 +97,10 @@ static aur_result largest_difference(const study *s, double *largest, aur_error 
     *largest = 0.0;
     for (size_t p = 0; p < s->pattern_count; ++p) {
         double value[4];
-        if (s->pictures[p] == NULL)
+        if (s->images[p] == NULL)
             continue;
         const aur_result result =
-            aur_image_compare(s->references[0], s->pictures[p], AUR_IMAGE_RMSE, value, error);
+            aur_image_compare(s->references[0], s->images[p], AUR_IMAGE_RMSE, value, error);
         if (result != AUR_OK)
             return result;
         *largest = fmax(*largest, value[3]);
@@ -121,11 +121,11 @@ static aur_result draw_sheet(const study *s, aur_error *error) {
         paste(sheet, s->references[0], 0, 0, scale, false);
     for (size_t p = 0; p < s->pattern_count && result == AUR_OK; ++p) {
         aur_image *errors = NULL;
-        if (s->pictures[p] == NULL)
+        if (s->images[p] == NULL)
             continue;
-        result = aur_image_difference(s->references[0], s->pictures[p], 4.0 * largest, &errors, error);
+        result = aur_image_difference(s->references[0], s->images[p], 4.0 * largest, &errors, error);
         if (result == AUR_OK) {
-            paste(sheet, s->pictures[p], (p + 1) * step, 0, scale, false);
+            paste(sheet, s->images[p], (p + 1) * step, 0, scale, false);
             paste(sheet, errors, (p + 1) * step, step, 1.0F, true);
         }
         aur_image_destroy(errors);
@@ -169,7 +169,7 @@ static aur_result study_window(study *s, aur_error *error) {
         for (size_t p = 0; p < s->pattern_count && result == AUR_OK; ++p) {
             result = lab_forgive(s->run, s->patterns[p].set, measure(s, p, squares[p], error), error);
             for (size_t k = 0; k < s->seeds; ++k)
-                values[p * s->seeds + k] = s->pictures[p] != NULL ? squares[p][k] : NAN;
+                values[p * s->seeds + k] = s->images[p] != NULL ? squares[p][k] : NAN;
         }
         if (result == AUR_OK)
             result = draw_sheet(s, error);
@@ -180,8 +180,8 @@ static aur_result study_window(study *s, aur_error *error) {
         if (!isnan(values[p * s->seeds]))
             add_row(s, &s->patterns[p], &values[p * s->seeds], values);
     for (size_t i = 0; i < MARQUES_PATTERNS; ++i) {
-        aur_image_destroy(s->pictures[i]);
-        s->pictures[i] = NULL;
+        aur_image_destroy(s->images[i]);
+        s->images[i] = NULL;
     }
     for (size_t i = 0; i < 2; ++i) {
         aur_image_destroy(s->references[i]);

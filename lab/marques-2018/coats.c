@@ -67,12 +67,12 @@ static aur_result add_pixel(coats_study *s, const lab_lobes *lobes, size_t pixel
             result = lab_lobes_weigh(lobes, (lab_lobe_method)m, xyz, weights[m], error);
         for (size_t hard = 0; hard < 2 && result == AUR_OK; ++hard) {
             const lab_light light = turn(lab_random_light(image, hard == 1), x, y);
-            const double truth = lab_lobes_integrate(lobes, &light);
+            const double reference = lab_lobes_integrate(lobes, &light);
             double radiance[LAB_MOST_SAMPLES];
             for (size_t i = 0; i < lobes->all; ++i)
                 radiance[i] = lab_radiance(&light, xyz + 3 * i);
             for (size_t m = 0; m < LAB_LOBE_METHODS; ++m) {
-                double off = -truth;
+                double off = -reference;
                 for (size_t i = 0; i < lobes->all; ++i)
                     off += weights[m][i] * radiance[i];
                 s->squares[hard][m][image] += off * off;

@@ -62,7 +62,7 @@ typedef struct study {
     const char *set;
     double radians;
     aur_weight_table *table; /* of the set */
-    double *truth;           /* 6 * REFERENCE: points of both lobes */
+    double *reference;       /* 6 * REFERENCE: points of both lobes */
 } study;
 
 /* The paper uses strong regularisation, and no constraint on the sum. */
@@ -137,7 +137,7 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
                                .strategies = {strategies[0], strategies[1]},
                                .lobe = k,
                                .node_count = REFERENCE,
-                               .nodes = s->truth},
+                               .nodes = s->reference},
                 r->weights[k], error);
         else if (m == BALANCE || m == POWER)
             result = aur_mis_weights(m == POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, potential,
@@ -183,7 +183,7 @@ static double estimate(const rule *r, const lab_light *light) {
 static double exact(const study *s, const lab_light *light) {
     double sum = 0.0;
     for (size_t i = 0; i < 2 * REFERENCE; ++i)
-        sum += lab_radiance(light, s->truth + 3 * i) / REFERENCE;
+        sum += lab_radiance(light, s->reference + 3 * i) / REFERENCE;
     return sum;
 }
 
@@ -196,8 +196,8 @@ static aur_result claim_exact(const study *s, aur_error *error) {
         for (size_t i = 0; i < ALL; ++i)
             found[k] += r.weights[k][i] * (r.xyz[3 * i] * r.xyz[3 * i + 2] + 0.5);
         for (size_t i = k * REFERENCE; i < (k + 1) * REFERENCE; ++i)
-            if (s->truth[3 * i + 2] >= 0.0)
-                expected[k] += (s->truth[3 * i] * s->truth[3 * i + 2] + 0.5) / REFERENCE;
+            if (s->reference[3 * i + 2] >= 0.0)
+                expected[k] += (s->reference[3 * i] * s->reference[3 * i + 2] + 0.5) / REFERENCE;
         off = fmax(off, fabs(found[k] / expected[k] - 1.0));
     }
     if (result == AUR_OK)
@@ -210,24 +210,24 @@ static aur_result compare(study *s, double degrees, bool hard, aur_error *error)
     const uint64_t lights = lab_run_options(s->run)->quick ? 16 : 120;
     s->radians = degrees * 3.14159265358979323846 / 180.0;
     aur_result result =
-        lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 1.0, 0, 0}, s->truth, NULL, error);
+        lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 1.0, 0, 0}, s->reference, NULL, error);
     if (result == AUR_OK)
         result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 20.0, 0, 0},
-                          s->truth + 3 * REFERENCE, NULL, error);
+                          s->reference + 3 * REFERENCE, NULL, error);
     for (size_t i = REFERENCE; i < 2 * REFERENCE; ++i) {
-        const double x = s->truth[3 * i], z = s->truth[3 * i + 2];
-        s->truth[3 * i] = cos(s->radians) * x - sin(s->radians) * z;
-        s->truth[3 * i + 2] = sin(s->radians) * x + cos(s->radians) * z;
+        const double x = s->reference[3 * i], z = s->reference[3 * i + 2];
+        s->reference[3 * i] = cos(s->radians) * x - sin(s->radians) * z;
+        s->reference[3 * i + 2] = sin(s->radians) * x + cos(s->radians) * z;
     }
     double squares[METHODS] = {0};
     for (uint64_t seed = 0; seed < lights && result == AUR_OK; ++seed) {
         const lab_light light = lab_random_light(seed, hard);
-        const double truth = exact(s, &light);
+        const double expected = exact(s, &light);
         for (int m = 0; m < METHODS && result == AUR_OK; ++m) {
             rule r;
             result = make_rule(s, (method)m, seed, &r, error);
             if (result == AUR_OK)
-                squares[m] += pow(estimate(&r, &light) - truth, 2) / (double)lights;
+                squares[m] += pow(estimate(&r, &light) - expected, 2) / (double)lights;
         }
     }
     for (int m = 0; m < METHODS && result == AUR_OK; ++m) {
@@ -272,8 +272,8 @@ static aur_result study_set(study *s, aur_error *error) {
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    study s = {.run = run, .truth = malloc(6 * REFERENCE * sizeof *s.truth)};
-    if (s.truth == NULL)
+    study s = {.run = run, .reference = malloc(6 * REFERENCE * sizeof *s.reference)};
+    if (s.reference == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = AUR_OK;
     const bool whole = !options->quick;
@@ -288,7 +288,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (s.set != NULL)
             result = lab_forgive(run, s.set, study_set(&s, error), error);
     }
-    free(s.truth);
+    free(s.reference);
     return result;
 }
 

@@ -44,7 +44,7 @@ typedef struct study {
     aur_oswa *pair;           /* a cosine lobe and this one */
     aur_potential *potential; /* of the lobe */
     aur_potential *cosine;
-    double *truth; /* 6 * REFERENCE directions, and REFERENCE masses of the GGX lobe's directions */
+    double *reference; /* 6 * REFERENCE directions, and REFERENCE masses of the GGX lobe's directions */
 } study;
 
 static uint64_t light_count(const study *s) {
@@ -151,20 +151,20 @@ static aur_result two_lobes(const study *s, rule which, uint64_t seed, samples *
 }
 
 /* The integrals of the GGX lobe, and of both lobes. */
-static void exact(const study *s, const lab_light *light, double truths[2]) {
-    const double *const masses = s->truth + 6 * REFERENCE;
+static void exact(const study *s, const lab_light *light, double expected[2]) {
+    const double *const masses = s->reference + 6 * REFERENCE;
     double glossy = 0.0, diffuse = 0.0;
     for (size_t i = 0; i < REFERENCE; ++i) {
-        glossy += masses[i] * lab_radiance(light, s->truth + 3 * i);
-        diffuse += lab_radiance(light, s->truth + 3 * (REFERENCE + i)) / REFERENCE;
+        glossy += masses[i] * lab_radiance(light, s->reference + 3 * i);
+        diffuse += lab_radiance(light, s->reference + 3 * (REFERENCE + i)) / REFERENCE;
     }
-    truths[0] = glossy;
-    truths[1] = glossy + diffuse;
+    expected[0] = glossy;
+    expected[1] = glossy + diffuse;
 }
 
 /* One rule under one light of either kind: accumulates its squared error and its worst-case error. */
 static aur_result try_rule(const study *s, rule which, uint64_t seed, const lab_light lights[2],
-                           double truths[2][2], double squares[2][RULES], double *worst, aur_error *error) {
+                           double expected[2][2], double squares[2][RULES], double *worst, aur_error *error) {
     samples r;
     const bool two = which >= SEPARATE;
     const aur_result result =
@@ -173,7 +173,7 @@ static aur_result try_rule(const study *s, rule which, uint64_t seed, const lab_
         double found = 0.0;
         for (size_t i = 0; i < r.count; ++i)
             found += r.weights[i] * lab_radiance(&lights[hard], r.xyz + 3 * i);
-        squares[hard][which] += pow(found - truths[hard][two], 2);
+        squares[hard][which] += pow(found - expected[hard][two], 2);
     }
     if (result != AUR_OK || two || seed >= turn_count(s))
         return result;
@@ -191,11 +191,11 @@ static aur_result try_rules(study *s, double squares[2][RULES], double *worst, a
     aur_result result = AUR_OK;
     for (uint64_t seed = 0; seed < count && result == AUR_OK; ++seed) {
         const lab_light lights[2] = {lab_random_light(seed, false), lab_random_light(seed, true)};
-        double truths[2][2];
+        double expected[2][2];
         for (int hard = 0; hard < 2; ++hard)
-            exact(s, &lights[hard], truths[hard]);
+            exact(s, &lights[hard], expected[hard]);
         for (int m = 0; m < RULES && result == AUR_OK; ++m)
-            result = try_rule(s, (rule)m, seed, lights, truths, squares, worst, error);
+            result = try_rule(s, (rule)m, seed, lights, expected, squares, worst, error);
     }
     return result;
 }
@@ -215,12 +215,13 @@ static aur_result compare(study *s, double alpha, double degrees, aur_error *err
         result = aur_oswa_create(&two, &s->pair, error);
     if (result == AUR_OK) {
         s->mass = aur_potential_mass(s->potential);
-        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 0.0, 0, 0}, s->truth, NULL, error);
+        result =
+            lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 0.0, 0, 0}, s->reference, NULL, error);
     }
     if (result == AUR_OK)
-        aur_lobe_warp(&s->lobe, REFERENCE, s->truth, s->truth);
+        aur_lobe_warp(&s->lobe, REFERENCE, s->reference, s->reference);
     for (size_t i = 0; i < REFERENCE && result == AUR_OK; ++i)
-        s->truth[6 * REFERENCE + i] = ratio(s, s->truth + 3 * i) / REFERENCE;
+        s->reference[6 * REFERENCE + i] = ratio(s, s->reference + 3 * i) / REFERENCE;
     if (result == AUR_OK)
         result = try_rules(s, squares, worst, error);
     for (int hard = 0; hard < 2 && result == AUR_OK; ++hard)
@@ -272,13 +273,13 @@ static aur_result study_set(study *s, aur_error *error) {
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    study s = {.run = run, .truth = malloc(7 * REFERENCE * sizeof *s.truth)};
-    if (s.truth == NULL)
+    study s = {.run = run, .reference = malloc(7 * REFERENCE * sizeof *s.reference)};
+    if (s.reference == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = lab_lobe_potential(1.0, 1.5, &s.cosine, error);
     if (result == AUR_OK)
         result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, 1.0, 0, 0},
-                          s.truth + 3 * REFERENCE, NULL, error);
+                          s.reference + 3 * REFERENCE, NULL, error);
     const char *const sets[] = {"spherical-fibonacci", options->quick ? NULL : "sobol",
                                 options->quick ? NULL : "random", options->set};
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
@@ -287,7 +288,7 @@ static aur_result run(lab_run *run, aur_error *error) {
             result = lab_forgive(run, s.set, study_set(&s, error), error);
     }
     aur_potential_destroy(s.cosine);
-    free(s.truth);
+    free(s.reference);
     return result;
 }
 

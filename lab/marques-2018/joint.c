@@ -37,7 +37,7 @@ typedef struct joint_study {
     double exponent;
     size_t count, steps;
     const aur_potential *lobe;
-    double truth[3 * REFERENCE]; /* points of the lobe */
+    double reference[3 * REFERENCE]; /* points of the lobe */
 } joint_study;
 
 typedef struct joint_rule {
@@ -174,7 +174,7 @@ static double judge(const joint_study *of, const joint_rule *rule, bool hard) {
         const double turn = 2.399963229728653 * (double)seed, c = cos(turn), s = sin(turn);
         double exact = 0.0, found = 0.0;
         for (size_t i = 0; i < REFERENCE; ++i)
-            exact += lab_radiance(&light, of->truth + 3 * i) / REFERENCE;
+            exact += lab_radiance(&light, of->reference + 3 * i) / REFERENCE;
         for (size_t i = 0; i < of->count; ++i) {
             const double *const u = rule->xyz + 3 * i;
             found += rule->weights[i] *
@@ -239,8 +239,8 @@ static aur_result run(lab_run *run, aur_error *error) {
         result = lab_lobe_potential(of.exponent, SMOOTHNESS, &lobe, error);
         of.lobe = lobe;
         if (result == AUR_OK)
-            result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, of.exponent, 0, 0}, of.truth,
-                              NULL, error);
+            result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, of.exponent, 0, 0},
+                              of.reference, NULL, error);
         for (size_t n = 0; n < (quick ? 1 : 3) && result == AUR_OK; ++n) {
             of.count = counts[n];
             result = study_size(&of, error);

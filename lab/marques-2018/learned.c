@@ -37,7 +37,7 @@ typedef struct learned_study {
     double exponent;
     const char *set;
     aur_potential *potentials[SMOOTH];
-    double truth[3 * REFERENCE], candidates[3 * CANDIDATES];
+    double reference[3 * REFERENCE], candidates[3 * CANDIDATES];
 } learned_study;
 
 static double smoothness(size_t index) {
@@ -163,7 +163,7 @@ static aur_result try_light(const learned_study *of, uint64_t seed, bool hard, d
     const lab_light light = lab_random_light(seed, hard);
     double xyz[3 * COUNT], values[COUNT], exact = 0.0, found[SMOOTH], best = -INFINITY;
     for (size_t i = 0; i < REFERENCE; ++i)
-        exact += lab_radiance(&light, of->truth + 3 * i) / REFERENCE;
+        exact += lab_radiance(&light, of->reference + 3 * i) / REFERENCE;
     aur_result result = lab_draw(&(lab_samples){of->set, COUNT, of->exponent, 0, seed}, xyz, NULL, error);
     for (size_t i = 0; i < COUNT; ++i)
         values[i] = lab_radiance(&light, xyz + 3 * i);
@@ -237,7 +237,7 @@ static aur_result study_lobe(learned_study *of, aur_error *error) {
     for (size_t s = 0; s < SMOOTH && result == AUR_OK; ++s)
         result = lab_lobe_potential(of->exponent, smoothness(s), &of->potentials[s], error);
     if (result == AUR_OK)
-        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, of->exponent, 0, 0}, of->truth,
+        result = lab_draw(&(lab_samples){"spherical-fibonacci", REFERENCE, of->exponent, 0, 0}, of->reference,
                           NULL, error);
     if (result == AUR_OK)
         result = lab_draw(&(lab_samples){"spherical-fibonacci", CANDIDATES, of->exponent, 0, 1},

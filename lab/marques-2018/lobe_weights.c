@@ -109,8 +109,8 @@ aur_result lab_lobes_weigh(const lab_lobes *of, lab_lobe_method how, const doubl
 static aur_result find_reference(const lab_lobes *of, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < of->count && result == AUR_OK; ++k) {
-        double *const xyz = of->truth + 4 * LAB_LOBE_REFERENCE * k, *const weights =
-                                                                        xyz + 3 * LAB_LOBE_REFERENCE;
+        double *const xyz = of->reference + 4 * LAB_LOBE_REFERENCE * k, *const weights =
+                                                                            xyz + 3 * LAB_LOBE_REFERENCE;
         double sum = 0.0;
         result = draw(of, k, "spherical-fibonacci", LAB_LOBE_REFERENCE, LAB_LOBE_REFERENCE, 0, xyz, error);
         for (size_t i = 0; i < LAB_LOBE_REFERENCE && result == AUR_OK; ++i)
@@ -125,7 +125,7 @@ double lab_lobes_integrate(const lab_lobes *of, const lab_light *light) {
     double sum = 0.0;
     for (size_t k = 0; k < of->count; ++k)
         for (size_t i = 0; i < LAB_LOBE_REFERENCE; ++i) {
-            const double *const lobe = of->truth + 4 * LAB_LOBE_REFERENCE * k;
+            const double *const lobe = of->reference + 4 * LAB_LOBE_REFERENCE * k;
             sum += lobe[3 * LAB_LOBE_REFERENCE + i] * lab_radiance(light, lobe + 3 * i);
         }
     return sum;
@@ -133,8 +133,8 @@ double lab_lobes_integrate(const lab_lobes *of, const lab_light *light) {
 
 aur_result lab_lobes_open(lab_lobes *of, aur_error *error) {
     of->all = 0;
-    of->truth = malloc(4 * LAB_LOBE_REFERENCE * LAB_MOST_LOBES * sizeof *of->truth);
-    aur_result result = of->truth == NULL ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory") : AUR_OK;
+    of->reference = malloc(4 * LAB_LOBE_REFERENCE * LAB_MOST_LOBES * sizeof *of->reference);
+    aur_result result = of->reference == NULL ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory") : AUR_OK;
     for (size_t k = 0; k < of->count && result == AUR_OK; ++k) {
         aur_lobe *const lobe = &of->lobes[k];
         if (lobe->kind == AUR_LOBE_GGX)
@@ -160,8 +160,8 @@ void lab_lobes_close(lab_lobes *of) {
         aur_potential_destroy(of->potentials[k]);
         of->potentials[k] = NULL;
     }
-    free(of->truth);
-    of->truth = NULL;
+    free(of->reference);
+    of->reference = NULL;
 }
 
 void lab_lobes_rows(lab_run *run, const char *name, const char *set, bool hard, size_t count, size_t stride,

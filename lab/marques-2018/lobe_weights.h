@@ -19,7 +19,7 @@ typedef struct lab_lobes {
     /* Set by lab_lobes_open: */
     size_t counts[LAB_MOST_LOBES], all; /* samples */
     aur_potential *potentials[LAB_MOST_LOBES];
-    double *truth; /* 4 * LAB_LOBE_REFERENCE per lobe: directions, then weights */
+    double *reference; /* 4 * LAB_LOBE_REFERENCE per lobe: directions, then weights */
 } lab_lobes;
 
 #define LAB_COSINE(m_)                                                                                       \

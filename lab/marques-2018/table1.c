@@ -86,7 +86,7 @@ static double published_ratio(const subject *of, const char *set, way which) {
 /* The RMSE of one method relative to that of OSWA: the ratio of two means over the same scramblings, with the
  * interval of its linearised form. */
 static void add_row(const image_study *study, const char *set, way which, const double *mse,
-                    const double *base, double picture) {
+                    const double *base, double image_mse) {
     const lab_interval rmse = lab_root_mean(study->scrambles, mse);
     const lab_interval ratio = lab_root_ratio_paired(study->scrambles, mse, base);
     const lab_interval one = lab_gather_one_set(study->scrambles, mse, base);
@@ -97,7 +97,7 @@ static void add_row(const image_study *study, const char *set, way which, const 
     lab_row(study->run, (const char *const[]){study->subject->name, set, directions, ways[which].name, NULL},
             10,
             (const double[]){rmse.value, rmse.low, rmse.high, ratio.value, ratio.low, ratio.high, one.low,
-                             one.high, sqrt(picture), published_value != 0.0 ? published_value : NAN});
+                             one.high, sqrt(image_mse), published_value != 0.0 ? published_value : NAN});
 }
 
 /* One scrambling; writes the image of the first. */
@@ -112,10 +112,10 @@ static aur_result measure_one(image_study *study, const char *set, way w, size_t
         char view[160];
         snprintf(view, sizeof view, "%s, %.80s", study->subject->name, set);
         const lab_image_position position = {.view = view, .name = ways[w].name, .exposure = 1.0};
-        const lab_image_position truth = {view, "reference", true, 1.0};
+        const lab_image_position reference_position = {view, "reference", true, 1.0};
         result = lab_picture(study->run, &position, image, error);
         if (result == AUR_OK && w == OSWA)
-            result = lab_picture(study->run, &truth, study->gather.reference, error);
+            result = lab_picture(study->run, &reference_position, study->gather.reference, error);
     }
     aur_image_destroy(image);
     return result;
@@ -123,7 +123,7 @@ static aur_result measure_one(image_study *study, const char *set, way w, size_t
 
 /* Mean square errors over the pixels with both lobes, one per scrambling, and the average mean of the images.
  */
-static aur_result measure(image_study *study, const char *set, way w, double *mse, double *picture,
+static aur_result measure(image_study *study, const char *set, way w, double *mse, double *image_mse,
                           aur_error *error) {
     double values[MOST_SCRAMBLES + 1] = {0.0};
     char key[200];
@@ -131,12 +131,12 @@ static aur_result measure(image_study *study, const char *set, way w, double *ms
     aur_result result = AUR_OK;
     double seconds = 0.0;
     if (!lab_recall(study->run, key, study->scrambles + 1, values)) {
-        double *const pictures = &values[study->scrambles];
+        double *const image_squares = &values[study->scrambles];
         result = lab_gather_need_reference(&study->gather, error);
         for (size_t k = 0; k < study->scrambles && result == AUR_OK; ++k) {
             double all = 0.0;
             result = measure_one(study, set, w, k, &values[k], &all, error);
-            *pictures += all / (double)study->scrambles;
+            *image_squares += all / (double)study->scrambles;
             seconds += study->gather.seconds / (double)study->scrambles;
         }
         char what[240];
@@ -146,18 +146,18 @@ static aur_result measure(image_study *study, const char *set, way w, double *ms
             result = lab_keep(study->run, key, study->scrambles + 1, values, error);
     }
     memcpy(mse, values, study->scrambles * sizeof *mse);
-    *picture = values[study->scrambles];
+    *image_mse = values[study->scrambles];
     return result;
 }
 
 static aur_result study_set(image_study *study, const char *set, aur_error *error) {
     double mse[WAYS][MOST_SCRAMBLES], over[WAYS];
     for (size_t w = 0; w < WAYS; ++w) {
-        double picture = 0.0;
-        const aur_result result = measure(study, set, (way)w, mse[w], &picture, error);
+        double image_mse = 0.0;
+        const aur_result result = measure(study, set, (way)w, mse[w], &image_mse, error);
         if (result != AUR_OK)
             return result;
-        add_row(study, set, (way)w, mse[w], mse[OSWA], picture);
+        add_row(study, set, (way)w, mse[w], mse[OSWA], image_mse);
         over[w] = 100.0 * (lab_root_ratio_paired(study->scrambles, mse[w], mse[OSWA]).value - 1.0);
     }
     lab_note(study->run,

@@ -26,7 +26,7 @@ typedef struct adaptive_study {
     lab_stage stage;
     const adaptive_lobe *lobe;
     size_t side, image_side, photons, references, seeds;
-    aur_image *truth[2];
+    aur_image *reference_images[2];
     double fixed[ADAPTIVE_FIXED]; /* mean square errors of patterns of doubling constant size; 0: not measured
                                    * yet */
 } adaptive_study;
@@ -45,8 +45,8 @@ typedef struct adaptive_found {
 } adaptive_found;
 
 const char *adaptive_pattern(const adaptive_way *way); /* its name */
-aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed, bool picture,
-                           aur_image **image, aur_error *error);
+aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed,
+                           bool whole_image, aur_image **image, aur_error *error);
 void adaptive_count(const adaptive_study *study, const adaptive_way *way, const aur_image *image,
                     adaptive_counts *counts);
 aur_result adaptive_measure(adaptive_study *study, const adaptive_way *way, adaptive_found *found,

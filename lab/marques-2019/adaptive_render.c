@@ -6,8 +6,8 @@
 #include "adaptive.h"
 #include "program/lab/points.h"
 
-aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed, bool picture,
-                           aur_image **image, aur_error *error) {
+aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed,
+                           bool whole_image, aur_image **image, aur_error *error) {
     char integrator[600], how[360];
     const size_t first = study->lobe->first * (way->criterion == NULL ? way->factor : 1);
     if (way->criterion != NULL)
@@ -24,7 +24,7 @@ aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way,
         "equal,rotations="
         "0,photons=%zu,photons_per_texel=64,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu,%s",
         study->lobe->name, study->photons, first, first, seed, how);
-    const size_t side = picture ? study->image_side : study->side;
+    const size_t side = whole_image ? study->image_side : study->side;
     return lab_render(
         study->run,
         &(lab_rendering){
@@ -62,9 +62,9 @@ const char *adaptive_pattern(const adaptive_way *way) {
 static aur_result need_reference(adaptive_study *study, aur_error *error) {
     static const char *const patterns[] = {"spherical-fibonacci", "sobol"};
     aur_result result = AUR_OK;
-    for (size_t i = 0; i < 2 && study->truth[i] == NULL && result == AUR_OK; ++i) {
+    for (size_t i = 0; i < 2 && study->reference_images[i] == NULL && result == AUR_OK; ++i) {
         const adaptive_way fine = {.factor = study->references / study->lobe->first, .pattern = patterns[i]};
-        result = adaptive_render(study, &fine, 1000 * (i + 1), false, &study->truth[i], error);
+        result = adaptive_render(study, &fine, 1000 * (i + 1), false, &study->reference_images[i], error);
     }
     return result;
 }
@@ -87,7 +87,8 @@ static aur_result measure(adaptive_study *study, const adaptive_way *way, adapti
                 result = aur_image_select(image, 3, (const char *const[]){"R", "G", "B"}, &colour, error);
             if (result == AUR_OK) {
                 adaptive_count(study, way, image, &counts);
-                values[5 * k] = lab_mean_product(colour, study->truth[0], study->truth[1]);
+                values[5 * k] =
+                    lab_mean_product(colour, study->reference_images[0], study->reference_images[1]);
                 values[5 * k + 1] = counts.mean;
                 memcpy(&values[5 * k + 2], counts.shares, sizeof counts.shares);
             }
@@ -202,8 +203,8 @@ aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, a
 
 void adaptive_release(adaptive_study *study) {
     for (size_t i = 0; i < 2; ++i) {
-        aur_image_destroy(study->truth[i]);
-        study->truth[i] = NULL;
+        aur_image_destroy(study->reference_images[i]);
+        study->reference_images[i] = NULL;
     }
     memset(study->fixed, 0, sizeof study->fixed);
 }

@@ -26,7 +26,7 @@ typedef struct statue_study {
     size_t references, seeds, sizes, set_count;
     const char *sets[SETS];
     const char *lobes; /* the gathered component */
-    aur_image *truth[2];
+    aur_image *reference_images[2];
 } statue_study;
 
 static const char *const columns[] = {"figure",       "lobe",      "set",       "step",    "directions",
@@ -34,7 +34,7 @@ static const char *const columns[] = {"figure",       "lobe",      "set",       
                                       "over_sf_high", "published", NULL};
 
 static aur_result render(const statue_study *study, const char *set, size_t diffuse, size_t glossy,
-                         size_t seed, bool picture, aur_image **image, aur_error *error) {
+                         size_t seed, bool whole_image, aur_image **image, aur_error *error) {
     char integrator[400];
     snprintf(integrator, sizeof integrator,
              "finalgather-lab:%s,component=%s,pixel=centre,edges=0,short_rays=0,density=same,weights=equal,"
@@ -43,18 +43,19 @@ static aur_result render(const statue_study *study, const char *set, size_t diff
              study->light, study->lobes, set, diffuse, glossy, seed);
     const lab_rendering how = {.renderer = study->stage.renderer,
                                .integrator = integrator,
-                               .width = picture ? study->image_width : study->width,
-                               .height = picture ? study->image_height : study->height};
+                               .width = whole_image ? study->image_width : study->width,
+                               .height = whole_image ? study->image_height : study->height};
     return lab_render(study->run, &how, image, error);
 }
 
 static aur_result need_reference(statue_study *study, aur_error *error) {
     const size_t n = study->references;
-    if (study->truth[0] != NULL)
+    if (study->reference_images[0] != NULL)
         return AUR_OK;
     const aur_result result =
-        render(study, "spherical-fibonacci", n, n, 1000, false, &study->truth[0], error);
-    return result != AUR_OK ? result : render(study, "sobol", n, n, 2000, false, &study->truth[1], error);
+        render(study, "spherical-fibonacci", n, n, 1000, false, &study->reference_images[0], error);
+    return result != AUR_OK ? result
+                            : render(study, "sobol", n, n, 2000, false, &study->reference_images[1], error);
 }
 
 /* Mean square errors, one per seed. */
@@ -69,7 +70,7 @@ static aur_result measure(statue_study *study, const char *set, size_t diffuse, 
         aur_image *image = NULL;
         result = render(study, set, diffuse, glossy, 1 + k, false, &image, error);
         if (result == AUR_OK)
-            mse[k] = lab_mean_product(image, study->truth[0], study->truth[1]);
+            mse[k] = lab_mean_product(image, study->reference_images[0], study->reference_images[1]);
         aur_image_destroy(image);
     }
     return result != AUR_OK ? result : lab_keep(study->run, key, study->seeds, mse, error);
@@ -87,8 +88,8 @@ static double add_row(const statue_study *study, const char *figure, const char 
 
 static void release_reference(statue_study *study) {
     for (size_t i = 0; i < 2; ++i) {
-        aur_image_destroy(study->truth[i]);
-        study->truth[i] = NULL;
+        aur_image_destroy(study->reference_images[i]);
+        study->reference_images[i] = NULL;
     }
 }
 

@@ -32,7 +32,7 @@ typedef struct occlusion_study {
     size_t reference_samples, repeats;
     size_t set_count;
     occlusion_set sets[SET_CAPACITY];
-    occlusion_form truth;
+    occlusion_form reference_form;
     aur_image *reference; /* NULL: not rendered yet */
 } occlusion_study;
 
@@ -107,7 +107,8 @@ static aur_result measure(occlusion_study *study, const occlusion_form *form, do
     aur_result result = AUR_OK;
     if (!lab_recall(study->run, key, 2 * study->repeats, values)) {
         if (study->reference == NULL)
-            result = render(study, &study->truth, study->width, study->height, 0, &study->reference, error);
+            result = render(study, &study->reference_form, study->width, study->height, 0, &study->reference,
+                            error);
         for (size_t k = 0; k < study->repeats && result == AUR_OK; ++k) {
             aur_image *image = NULL;
             result = render(study, form, study->width, study->height, 1 + k, &image, error);
@@ -153,23 +154,23 @@ static aur_result draw_references(const occlusion_study *study, const size_t cou
     double drawn;
     if (study->image_width == 0 || lab_recall(study->run, "references", 1, &drawn))
         return AUR_OK;
-    const occlusion_form fine = {study->truth.set, 1024, true};
-    aur_image *picture = NULL;
-    aur_result result = render(study, &fine, study->image_width, study->image_height, 0, &picture, error);
+    const occlusion_form fine = {study->reference_form.set, 1024, true};
+    aur_image *rendered = NULL;
+    aur_result result = render(study, &fine, study->image_width, study->image_height, 0, &rendered, error);
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
         char view[64];
         name_view(&(occlusion_form){.samples = counts[i / 2], .each_pixel = i % 2 == 0}, view);
         const lab_image_position position = {.view = view, .name = "reference", .reference = true};
-        result = lab_picture(study->run, &position, picture, error);
+        result = lab_picture(study->run, &position, rendered, error);
     }
-    aur_image_destroy(picture);
+    aur_image_destroy(rendered);
     return result != AUR_OK ? result : lab_keep(study->run, "references", 1, (const double[]){1.0}, error);
 }
 
 static aur_result study_all(occlusion_study *study, aur_error *error) {
     static const occlusion_set fibonacci = {"spherical-fibonacci", "rotate"};
     static const size_t counts[] = {64, 16};
-    study->truth = (occlusion_form){&fibonacci, study->reference_samples, true};
+    study->reference_form = (occlusion_form){&fibonacci, study->reference_samples, true};
     aur_result result = draw_references(study, counts, error);
     for (int each = 1; each >= 0; --each)
         for (size_t n = 0; n < 2; ++n) {

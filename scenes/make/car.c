@@ -122,10 +122,10 @@ static double chrome(const void *context, vec p) {
     const double bars = fabs(q.z - 0.044 * floor(q.z / 0.044 + 0.5)) - 0.012;
     d = fmin(d, fmin(fmax(shield, bars), fmax(fabs(shield) - 0.016, 1.86 - q.x)));
     /* lamps on the fenders */
-    const vec lamp = {1.50, 0.74, 0.50};
-    const double drop = solid_ellipsoid(q, lamp, (vec){0.20, 0.118, 0.118});
-    d = fmin(d, solid_cut(fmax(drop, q.x - lamp.x - 0.10),
-                          solid_ball(q, add(lamp, (vec){0.13, 0.0, 0.0}), 0.105), 0.01));
+    const vec headlight = {1.50, 0.74, 0.50};
+    const double drop = solid_ellipsoid(q, headlight, (vec){0.20, 0.118, 0.118});
+    d = fmin(d, solid_cut(fmax(drop, q.x - headlight.x - 0.10),
+                          solid_ball(q, add(headlight, (vec){0.13, 0.0, 0.0}), 0.105), 0.01));
     d = fmin(d, solid_limb(q, (vec){1.46, 0.66, 0.50}, (vec){1.42, 0.55, 0.50}, 0.03, 0.04));
     /* handle, mascot, strip along the side */
     d = fmin(d, solid_limb(q, (vec){-0.36, 0.84, 0.565}, (vec){-0.24, 0.845, 0.56}, 0.014, 0.014));
@@ -133,7 +133,7 @@ static double chrome(const void *context, vec p) {
     return d;
 }
 
-static double lamps(const void *context, vec p) {
+static double headlights(const void *context, vec p) {
     (void)context;
     const vec q = {p.x, p.y, fabs(p.z)};
     return fmax(solid_ellipsoid(q, (vec){1.555, 0.74, 0.50}, (vec){0.075, 0.088, 0.088}), 1.555 - q.x);
@@ -161,8 +161,8 @@ static void build_tyres(mesh *m) {
     build(m, tyre, 0.0160);
 }
 
-static void build_lamps(mesh *m) {
-    build(m, lamps, 0.008);
+static void build_headlights(mesh *m) {
+    build(m, headlights, 0.008);
 }
 
 const product product_car_body = {
@@ -170,4 +170,5 @@ const product product_car_body = {
 const product product_car_chrome = {.file = "car-chrome.ply", .summary = "its chrome", .build = build_chrome};
 const product product_car_glass = {.file = "car-glass.ply", .summary = "its windows", .build = build_glass};
 const product product_car_tyres = {.file = "car-tyres.ply", .summary = "its tyres", .build = build_tyres};
-const product product_car_lamps = {.file = "car-lamps.ply", .summary = "its lamps", .build = build_lamps};
+const product product_car_headlights = {
+    .file = "car-lamps.ply", .summary = "its lamps", .build = build_headlights};

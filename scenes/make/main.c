@@ -28,7 +28,7 @@ extern const product product_car_body;
 extern const product product_car_chrome;
 extern const product product_car_glass;
 extern const product product_car_tyres;
-extern const product product_car_lamps;
+extern const product product_car_headlights;
 extern const product product_plate;
 extern const product product_seeds;
 extern const product product_temple;
@@ -36,10 +36,10 @@ extern const product product_sky;
 extern const product product_studio;
 
 static const product *const products[] = {
-    &product_hare,      &product_statue,    &product_teapot,    &product_cups,     &product_tea,
-    &product_bowl,      &product_apples,    &product_oranges,   &product_pears,    &product_grapes,
-    &product_stems,     &product_cloth,     &product_wood,      &product_car_body, &product_car_chrome,
-    &product_car_glass, &product_car_tyres, &product_car_lamps, &product_plate,    &product_seeds,
+    &product_hare,      &product_statue,    &product_teapot,         &product_cups,     &product_tea,
+    &product_bowl,      &product_apples,    &product_oranges,        &product_pears,    &product_grapes,
+    &product_stems,     &product_cloth,     &product_wood,           &product_car_body, &product_car_chrome,
+    &product_car_glass, &product_car_tyres, &product_car_headlights, &product_plate,    &product_seeds,
     &product_temple,    &product_sky,       &product_studio,
 };
 
@@ -55,7 +55,7 @@ static aur_result make_mesh(const product *p, const char *path, aur_error *error
     return result;
 }
 
-static aur_result make_picture(const product *p, const char *path, aur_error *error) {
+static aur_result make_image(const product *p, const char *path, aur_error *error) {
     aur_image *image = NULL;
     aur_result result = p->paint(&image, error);
     if (result == AUR_OK)
@@ -77,7 +77,7 @@ static int make(const product *p, const char *folder, bool again) {
         return 0;
     }
     aur_error error = {0};
-    if ((p->build != NULL ? make_mesh(p, path, &error) : make_picture(p, path, &error)) == AUR_OK)
+    if ((p->build != NULL ? make_mesh(p, path, &error) : make_image(p, path, &error)) == AUR_OK)
         return 0;
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
     aur_error_format(&error, sizeof text, text);

@@ -205,8 +205,8 @@ static void test_coverage(void **state) {
     aur_view_factors_options many = target_of(77, false);
     many.rays = 1 << 18;
     many.threads = 0;
-    aur_view_factors_matrix truth, m;
-    aur_view_factors *const reference = factors_of(facets, &many, &truth);
+    aur_view_factors_matrix reference_matrix, m;
+    aur_view_factors *const reference = factors_of(facets, &many, &reference_matrix);
     size_t held = 0, all = 0;
     for (uint64_t seed = 0; seed < 60; ++seed) {
         const aur_view_factors_options requested = target_of(seed, true);
@@ -215,7 +215,7 @@ static void test_coverage(void **state) {
             for (size_t k = 0; k < i; ++k) {
                 double width, expected_width;
                 const double measured = factor_at(&m, i, k, &width);
-                const double expected = factor_at(&truth, i, k, &expected_width);
+                const double expected = factor_at(&reference_matrix, i, k, &expected_width);
                 if (expected < 0.02)
                     continue; /* a few rays of 256 */
                 held += fabs(measured - expected) <= width + expected_width;
@@ -265,9 +265,10 @@ static void test_sky_coverage(void **state) {
             held += fabs(m.sky[0] - expected) <= m.sky_half_widths[0];
             aur_view_factors_destroy(factors);
         }
-        const double wanted = confidences[c] * RUNS, deviation = sqrt(wanted * (1.0 - confidences[c]));
+        const double expected_hits = confidences[c] * RUNS,
+                     deviation = sqrt(expected_hits * (1.0 - confidences[c]));
         print_message("%zu of %d intervals of confidence %g hold the sky\n", held, (int)RUNS, confidences[c]);
-        assert_in_range(held, wanted - 5.0 * deviation, fmin(wanted + 5.0 * deviation, RUNS));
+        assert_in_range(held, expected_hits - 5.0 * deviation, fmin(expected_hits + 5.0 * deviation, RUNS));
     }
     aur_facets_destroy(facets);
 }

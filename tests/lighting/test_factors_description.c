@@ -72,21 +72,21 @@ static void test_balance(void **state) {
     const aur_view_factors_description d = description_of(factors);
     const aur_parallel_options parallel = {.threads = 1};
     aur_facet_pattern pattern = {0};
-    aur_ray_hits visits = {0};
+    aur_ray_hits ray_hits = {0};
     aur_closed_pairs closed = {.patch_count = facets->patch_count,
                                .rows = calloc(facets->patch_count, sizeof *closed.rows)};
     aur_exchange exchange = {0};
     aur_balance balance = {0};
     assert_int_equal(aur_facet_pattern_create("sobol", 16, 9, &pattern, NULL), AUR_OK);
-    assert_int_equal(aur_ray_hits_trace(facets, &pattern, 4, &parallel, &visits, NULL), AUR_OK);
-    assert_int_equal(aur_exchange_assemble(facets, &visits, &closed, 0.95, &parallel, &exchange, NULL),
+    assert_int_equal(aur_ray_hits_trace(facets, &pattern, 4, &parallel, &ray_hits, NULL), AUR_OK);
+    assert_int_equal(aur_exchange_assemble(facets, &ray_hits, &closed, 0.95, &parallel, &exchange, NULL),
                      AUR_OK);
     assert_int_equal(aur_exchange_balance(&exchange, &parallel, &balance, NULL), AUR_OK);
     assert_true(balance.before > 0.01 && balance.moved > 0.01);
     assert_true(d.raw_row_error == balance.before && d.moved == balance.moved);
     aur_exchange_release(&exchange);
     aur_closed_pairs_release(&closed);
-    aur_ray_hits_release(&visits);
+    aur_ray_hits_release(&ray_hits);
     aur_facet_pattern_release(&pattern);
     aur_view_factors_destroy(factors);
     aur_facets_destroy(facets);

@@ -180,14 +180,14 @@ static void check_radiosities(const double *b, const double *widths, size_t laye
                               double slack) {
     const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
     for (size_t k = 0; k < 2 * rows; ++k) {
-        double truth = 2.0;
+        double expected = 2.0;
         if (k == floor)
-            truth = 4.0 / 3.0;
+            expected = 4.0 / 3.0;
         else if (k == rows + first)
-            truth = 5.0 / 3.0;
+            expected = 5.0 / 3.0;
         else if (k == rows + floor || k == first + layers - 1)
-            truth = 1.0;
-        assert_near(b[k], truth, 3.0 * widths[k] + slack);
+            expected = 1.0;
+        assert_near(b[k], expected, 3.0 * widths[k] + slack);
     }
 }
 

@@ -173,9 +173,9 @@ static void test_sheet(void **state) {
         for (size_t i = 0; i < 4; ++i) {
             double width;
             const size_t k = i ^ 2;
-            const double truth = factor_at(&exact, i, k, NULL), measured = factor_at(&m, i, k, &width);
-            assert_true(truth > 0.1);
-            assert_near(measured, truth, 3.0 * width); /* 6 standard errors and more */
+            const double expected = factor_at(&exact, i, k, NULL), measured = factor_at(&m, i, k, &width);
+            assert_true(expected > 0.1);
+            assert_near(measured, expected, 3.0 * width); /* 6 standard errors and more */
         }
         assert_near(m.back[2], 0.0, 1e-12);
         aur_view_factors_destroy(closed);

@@ -230,9 +230,9 @@ static void test_intervals(void **state) {
         for (size_t i = 0; i < 6; ++i)
             for (size_t k = 0; k < i; ++k) {
                 double width;
-                const double truth = factor_at(&exact, i, k, NULL);
+                const double expected = factor_at(&exact, i, k, NULL);
                 const double measured = factor_at(&m, i, k, &width);
-                held += fabs(measured - truth) <= width;
+                held += fabs(measured - expected) <= width;
                 ++all;
             }
         aur_view_factors_destroy(factors);

@@ -134,7 +134,7 @@ static void multiply(const work *w, const room *r) {
     }
 }
 
-static void keep_series(const work *w, size_t sensor, const double *all) {
+static void store_series(const work *w, size_t sensor, const double *all) {
     const size_t hours = w->weather->count;
     double *const values = w->series + 2 * hours * sensor, *const errors = values + hours;
     for (size_t h = 0; h < hours; ++h)
@@ -169,7 +169,7 @@ static void estimate_sensor(const work *w, aur_path_group *group, const room *r,
     const aur_daylight_year year = {r->all, r->sun, overcast};
     aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);
     if (w->series != NULL)
-        keep_series(w, sensor, r->all);
+        store_series(w, sensor, r->all);
 }
 
 enum { BLOCK = 4 }; /* sensors per task */
@@ -239,10 +239,10 @@ static void summarize(const work *w, aur_daylight_summary *computed) {
 static void warn(const work *w) {
     const aur_warnings *const to = &w->options->warnings;
     const aur_lit_hours *const lit = &w->lit;
-    if (w->trace.sky.lamps > 0)
+    if (w->trace.sky.removed_lights > 0)
         aur_warn_at(to, (aur_location){.file = NULL},
                     "%zu lamps of the scene are left out: a year of weather is light of the sky and the sun",
-                    w->trace.sky.lamps);
+                    w->trace.sky.removed_lights);
     if (lit->unknown > 0)
         aur_warn_at(
             to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_unknown].line},

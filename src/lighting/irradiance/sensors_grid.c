@@ -311,7 +311,7 @@ static void clear_open(grid *self, size_t count, const edge *edges, size_t index
     }
 }
 
-static aur_result keep_margin(grid *self) {
+static aur_result apply_margin(grid *self) {
     const size_t count = 3 * self->count;
     edge *const edges = malloc(count * sizeof *edges);
     if (edges == NULL)
@@ -400,7 +400,7 @@ aur_result aur_sensors_grid(const aur_scene *scene, const aur_grid_options *give
     for (size_t i = 0; i < self.count && result == AUR_OK; ++i)
         fill_triangle(&self, i);
     if (result == AUR_OK && self.options.margin > 0.0)
-        result = keep_margin(&self);
+        result = apply_margin(&self);
     if (result == AUR_OK)
         result = place(&self, created);
     if (result == AUR_OK)

@@ -119,7 +119,7 @@ static int compare_numbers(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
+static bool store_row(const assembly *work, scratch *s, aur_upper_row *row) {
     const size_t width = work->ray_hits->randomizations;
     row->count = s->met_count;
     row->columns = malloc((s->met_count + 1) * sizeof *row->columns);
@@ -176,7 +176,7 @@ static aur_result assemble_block(void *context, size_t index) {
         for (size_t k = work->starts[row]; good && k < work->starts[row + 1]; ++k)
             good = add_patch(work, &s, row, work->patches[k]);
         if (good)
-            good = keep_row(work, &s, &work->rows[row]);
+            good = store_row(work, &s, &work->rows[row]);
         aur_exchange *const to = work->exchange;
         double *const deviations = &to->loss_deviations[to->randomizations * row];
         add_losses(work, row, work->ray_hits->sky, deviations, &to->sky[row], &to->sky_half_widths[row]);

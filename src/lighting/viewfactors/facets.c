@@ -252,7 +252,7 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     if (result == AUR_OK)
         leave_out_slivers(facets);
     if (result == AUR_OK && mesh)
-        result = aur_facets_read_places(facets, error);
+        result = aur_facets_read_sources(facets, error);
     if (result == AUR_OK && vs3)
         result = take_vs3_groups(facets, &surfaces, error);
     aur_vs3_release(&surfaces);

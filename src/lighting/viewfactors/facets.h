@@ -97,7 +97,7 @@ aur_result aur_facets_load_uncut(const char *path, const aur_facets_options *opt
 
 /* The line numbers of a mesh file's triangles, and the groups of an OBJ's. The file has been loaded, so it is
  * valid. */
-aur_result aur_facets_read_places(aur_facets *facets, aur_error *error);
+aur_result aur_facets_read_sources(aur_facets *facets, aur_error *error);
 
 /* Looks for facets that make factors wrong or suspicious (without area, coplanar and overlapping, open or
  * inconsistent surfaces) and sends one warning per kind with the count. Errors: MEMORY. */

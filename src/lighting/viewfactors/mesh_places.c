@@ -32,7 +32,7 @@ static void take_groups(aur_facets *facets, aur_mesh_data *data) {
         facets->groups[i] = facets->source_groups[facets->sources[i]];
 }
 
-aur_result aur_facets_read_places(aur_facets *facets, aur_error *error) {
+aur_result aur_facets_read_sources(aur_facets *facets, aur_error *error) {
     aur_mesh_source source = {.path = facets->path, .format = aur_mesh_format_of_name(facets->path)};
     char *bytes;
     aur_result result = aur_file_read(facets->path, (size_t)1 << 35, &bytes, &source.size, error);

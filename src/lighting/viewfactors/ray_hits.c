@@ -44,7 +44,7 @@ static void count_targets(const tracing *work, scratch *s, size_t patch, size_t 
 }
 
 /* Stores the hits in order, and resets the scratch for the next patch. */
-static bool keep_row(const tracing *work, scratch *s, size_t patch) {
+static bool store_row(const tracing *work, scratch *s, size_t patch) {
     const size_t width = work->ray_hits->randomizations;
     aur_ray_hits_row *const row = &work->ray_hits->rows[patch];
     row->count = s->met_count;
@@ -81,7 +81,7 @@ static aur_result trace_block(void *context, size_t index) {
                 aur_facet_trace(work->facets, work->pattern, patch, r, NULL, s.targets);
                 count_targets(work, &s, patch, r);
             }
-        good = keep_row(work, &s, patch);
+        good = store_row(work, &s, patch);
     }
     free(s.targets);
     free(s.slots);

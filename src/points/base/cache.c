@@ -9,7 +9,7 @@
 typedef struct entry {
     struct entry *next;
     char *key;
-    void *thing;
+    void *value;
     void (*destroy)(void *);
     uint64_t rays;
 } entry;
@@ -28,7 +28,7 @@ void aur_cache_destroy(aur_cache *cache) {
         return;
     for (entry *at = cache->first; at != NULL;) {
         entry *const next = at->next;
-        at->destroy(at->thing);
+        at->destroy(at->value);
         free(at->key);
         free(at);
         at = next;
@@ -36,18 +36,18 @@ void aur_cache_destroy(aur_cache *cache) {
     free(cache);
 }
 
-static bool has(const aur_cache_uses *uses, const void *thing) {
+static bool has(const aur_cache_uses *uses, const void *value) {
     for (size_t i = 0; i < uses->count; ++i)
-        if (uses->things[i] == thing)
+        if (uses->values[i] == value)
             return true;
     return false;
 }
 
 static void count(aur_cache *cache, const entry *used) {
     for (aur_cache_uses *uses = cache->uses; uses != NULL; uses = uses->outer)
-        if (!has(uses, used->thing) &&
-            aur_array_reserve(&uses->things, &uses->capacity, uses->count + 1, sizeof *uses->things)) {
-            uses->things[uses->count++] = used->thing;
+        if (!has(uses, used->value) &&
+            aur_array_reserve(&uses->values, &uses->capacity, uses->count + 1, sizeof *uses->values)) {
+            uses->values[uses->count++] = used->value;
             uses->rays += used->rays;
         }
 }
@@ -59,7 +59,7 @@ aur_cache_uses *aur_cache_count(aur_cache *cache, aur_cache_uses *uses) {
 }
 
 void aur_cache_uses_release(aur_cache_uses *uses) {
-    free(uses->things);
+    free(uses->values);
     *uses = (aur_cache_uses){0};
 }
 
@@ -67,22 +67,22 @@ void *aur_cache_find(aur_cache *cache, const char *key) {
     for (const entry *at = cache->first; at != NULL; at = at->next)
         if (strcmp(at->key, key) == 0) {
             count(cache, at);
-            return at->thing;
+            return at->value;
         }
     return NULL;
 }
 
-aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, uint64_t rays,
+aur_result aur_cache_store(aur_cache *cache, const char *key, void *value, uint64_t rays,
                            void (*destroy)(void *)) {
     entry *const added = malloc(sizeof *added);
     char *const copy = strdup(key);
     if (added == NULL || copy == NULL) {
         free(added);
         free(copy);
-        destroy(thing);
+        destroy(value);
         return AUR_ERROR_MEMORY;
     }
-    *added = (entry){.next = cache->first, .key = copy, .thing = thing, .destroy = destroy, .rays = rays};
+    *added = (entry){.next = cache->first, .key = copy, .value = value, .destroy = destroy, .rays = rays};
     cache->first = added;
     count(cache, added);
     return AUR_OK;

@@ -14,9 +14,9 @@ AUR_INTERNAL void aur_cache_destroy(aur_cache *cache);
 
 /* The object stored under `key`, or NULL. It lives as long as the cache. */
 AUR_INTERNAL void *aur_cache_find(aur_cache *cache, const char *key);
-/* Takes ownership of `thing`, also on failure; it took `rays` to compute, and `destroy` frees it. Fails only
+/* Takes ownership of `value`, also on failure; it took `rays` to compute, and `destroy` frees it. Fails only
  * with AUR_ERROR_MEMORY. */
-AUR_INTERNAL aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, uint64_t rays,
+AUR_INTERNAL aur_result aur_cache_store(aur_cache *cache, const char *key, void *value, uint64_t rays,
                                         void (*destroy)(void *));
 
 /* Counts the objects used and the rays that computed them, now or earlier: the reported cost of preparing a
@@ -25,7 +25,7 @@ typedef struct aur_cache_uses {
     struct aur_cache_uses *outer; /* counts them, too; NULL: none */
     uint64_t rays;
     size_t count, capacity;
-    const void **things;
+    const void **values;
 } aur_cache_uses;
 
 /* From here on objects found and stored are counted in `uses` (NULL: not counted). Returns the previous one.

@@ -45,9 +45,9 @@ aur_names aur_names_of(size_t count, const char *const *strings) {
     return (aur_names){.count = count, .at = string_at, .table = strings};
 }
 
-size_t aur_names_find(aur_names names, const char *wanted) {
+size_t aur_names_find(aur_names names, const char *given) {
     size_t i = 0;
-    while (i < names.count && strcmp(names.at(names.table, i), wanted) != 0)
+    while (i < names.count && strcmp(names.at(names.table, i), given) != 0)
         ++i;
     return i;
 }
@@ -69,17 +69,17 @@ static bool short_words_agree(const char *a, const char *b) {
     }
 }
 
-const char *aur_names_nearest(aur_names names, const char *wanted) {
-    const size_t length = strlen(wanted);
+const char *aur_names_nearest(aur_names names, const char *given) {
+    const size_t length = strlen(given);
     if (length == 0 || length > LONGEST_NAME)
         return NULL;
     const char *best = NULL;
     size_t best_distance = length < 4 ? 2 : length < 6 ? 3 : length / 2;
     for (size_t i = 0; i < names.count; ++i) {
         const char *const name = names.at(names.table, i);
-        if (strlen(name) > LONGEST_NAME || (strpbrk(name, "_-") != NULL && !short_words_agree(wanted, name)))
+        if (strlen(name) > LONGEST_NAME || (strpbrk(name, "_-") != NULL && !short_words_agree(given, name)))
             continue;
-        const size_t distance = edit_distance(wanted, name);
+        const size_t distance = edit_distance(given, name);
         if (distance < best_distance) {
             best = name;
             best_distance = distance;
@@ -88,9 +88,9 @@ const char *aur_names_nearest(aur_names names, const char *wanted) {
     return best;
 }
 
-const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
+const char *aur_names_hint(aur_names names, const char *given, const char *quotes,
                            char hint[AUR_HINT_CAPACITY]) {
-    const char *const nearest = aur_names_nearest(names, wanted);
+    const char *const nearest = aur_names_nearest(names, given);
     hint[0] = '\0';
     if (nearest != NULL)
         snprintf(hint, AUR_HINT_CAPACITY, "; did you mean %c%s%c?", quotes[0], nearest, quotes[1]);
@@ -102,14 +102,14 @@ static const char *sorted_at(const void *table, size_t index) {
     return self->names.at(self->names.table, self->order[index]);
 }
 
-aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_names *sorted) {
+aur_names aur_names_by_distance(aur_names names, const char *given, aur_sorted_names *sorted) {
     size_t distance[AUR_SORTED_NAMES];
-    if (names.count > AUR_SORTED_NAMES || strlen(wanted) > LONGEST_NAME)
+    if (names.count > AUR_SORTED_NAMES || strlen(given) > LONGEST_NAME)
         return names;
     sorted->names = names;
     for (size_t i = 0; i < names.count; ++i) {
         const char *const name = names.at(names.table, i);
-        const size_t here = strlen(name) <= LONGEST_NAME ? edit_distance(wanted, name) : SIZE_MAX;
+        const size_t here = strlen(name) <= LONGEST_NAME ? edit_distance(given, name) : SIZE_MAX;
         size_t at = i;
         for (; at > 0 && distance[at - 1] > here; --at) {
             distance[at] = distance[at - 1];
@@ -133,9 +133,9 @@ size_t aur_names_list(aur_names names, size_t capacity, char *text) {
     return used;
 }
 
-const char *aur_names_suggest(aur_names names, const char *wanted, const char *others,
+const char *aur_names_suggest(aur_names names, const char *given, const char *others,
                               char text[AUR_ERROR_MESSAGE_CAPACITY]) {
-    if (aur_names_hint(names, wanted, "''", text)[0] == '\0') {
+    if (aur_names_hint(names, given, "''", text)[0] == '\0') {
         const size_t used = (size_t)snprintf(text, AUR_ERROR_MESSAGE_CAPACITY, "; %s: ", others);
         /* A list that does not fit here does not fit the message either. */
         aur_names_list(names, AUR_ERROR_MESSAGE_CAPACITY - used, text + used);
@@ -143,20 +143,20 @@ const char *aur_names_suggest(aur_names names, const char *wanted, const char *o
     return text;
 }
 
-aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
+aur_result aur_names_choose(aur_names names, const char *kind, const char *given, aur_location location,
                             size_t *index, aur_error *error) {
-    const size_t found = aur_names_find(names, wanted);
+    const size_t found = aur_names_find(names, given);
     if (found < names.count) {
         *index = found;
         return AUR_OK;
     }
     char help[AUR_ERROR_MESSAGE_CAPACITY];
-    return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'%s", kind, wanted,
-                       error != NULL ? aur_names_suggest(names, wanted, "there are", help) : "");
+    return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'%s", kind, given,
+                       error != NULL ? aur_names_suggest(names, given, "there are", help) : "");
 }
 
-const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names) {
-    return aur_names_nearest(aur_names_of(count, names), wanted);
+const char *aur_nearest_name(const char *given, size_t count, const char *const *names) {
+    return aur_names_nearest(aur_names_of(count, names), given);
 }
 
 size_t aur_list_names(size_t count, const char *const *names, size_t capacity, char *text) {

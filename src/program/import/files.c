@@ -23,7 +23,7 @@ static size_t write_nothing(struct aiFile *file, const char *from, size_t size, 
     return 0;
 }
 
-static size_t tell_position(struct aiFile *file) {
+static size_t report_position(struct aiFile *file) {
     return ((open_file *)(void *)file->UserData)->at;
 }
 
@@ -95,7 +95,7 @@ struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mod
         free(self);
         return NULL;
     }
-    *file = (struct aiFile){read_bytes, write_nothing, tell_position, size_of, seek, flush, (char *)self};
+    *file = (struct aiFile){read_bytes, write_nothing, report_position, size_of, seek, flush, (char *)self};
     return file;
 }
 

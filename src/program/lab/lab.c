@@ -54,7 +54,7 @@ extern const lab_experiment lab_marques_2019_grids;
 extern const lab_experiment lab_marques_2019_lattice;
 extern const lab_experiment lab_marques_2019_shifts;
 extern const lab_experiment lab_marques_2019_statue;
-extern const lab_experiment lab_picture_coverage;
+extern const lab_experiment lab_image_coverage;
 extern const lab_experiment lab_schretter_2012_fig5;
 extern const lab_experiment lab_schretter_2012_gaps;
 extern const lab_experiment lab_schretter_2012_sets;
@@ -115,7 +115,7 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2019_lattice,
     &lab_marques_2019_shifts,
     &lab_marques_2019_statue,
-    &lab_picture_coverage,
+    &lab_image_coverage,
     &lab_schretter_2012_fig5,
     &lab_schretter_2012_gaps,
     &lab_schretter_2012_sets,
@@ -124,19 +124,19 @@ static const lab_experiment *const experiments[] = {
 };
 /* clang-format on */
 
-enum { OWN_COUNT = sizeof experiments / sizeof experiments[0], MOST_ADDED = 256 };
+enum { BUILT_IN_COUNT = sizeof experiments / sizeof experiments[0], MOST_ADDED = 256 };
 
 /* Experiments registered by modules and programs before the first run, global to the process. */
 static const lab_experiment *added[MOST_ADDED];
 static size_t added_count;
 
 size_t lab_experiment_count(void) {
-    return OWN_COUNT + added_count;
+    return BUILT_IN_COUNT + added_count;
 }
 
 const lab_experiment *lab_experiment_at(size_t index) {
-    return index < OWN_COUNT                ? experiments[index]
-           : index < lab_experiment_count() ? added[index - OWN_COUNT]
+    return index < BUILT_IN_COUNT           ? experiments[index]
+           : index < lab_experiment_count() ? added[index - BUILT_IN_COUNT]
                                             : NULL;
 }
 
@@ -150,7 +150,7 @@ const lab_experiment *lab_find_experiment(const char *name) {
 static aur_result add_experiment(const lab_experiment *experiment, aur_error *error) {
     if (experiment->name == NULL || experiment->columns == NULL || experiment->run == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "an experiment must have a name, columns and a function");
-    for (size_t i = 0; i < OWN_COUNT; ++i)
+    for (size_t i = 0; i < BUILT_IN_COUNT; ++i)
         if (strcmp(experiments[i]->name, experiment->name) == 0)
             return aur_fail(error, AUR_ERROR_ARGUMENT, "the lab has an experiment '%s' already",
                             experiment->name);

@@ -14,16 +14,16 @@ double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image 
 }
 
 /* Adds the row of an image; one written before an interruption has a row already. */
-static void list_picture(lab_run *run, const lab_image_position *position, const char *path) {
+static void list_image(lab_run *run, const lab_image_position *position, const char *path) {
     const char *const file = strrchr(path, '/') + 1;
-    for (size_t i = 0; i < report_rows(run->pictures); ++i)
-        if (strcmp(report_cell(run->pictures, i, 2), file) == 0)
+    for (size_t i = 0; i < report_rows(run->images); ++i)
+        if (strcmp(report_cell(run->images, i, 2), file) == 0)
             return;
-    report_text(run->pictures, position->view);
-    report_text(run->pictures, position->name);
-    report_text(run->pictures, file);
-    report_text(run->pictures, position->reference ? "reference" : "");
-    report_number(run->pictures, position->exposure, 4);
+    report_text(run->images, position->view);
+    report_text(run->images, position->name);
+    report_text(run->images, file);
+    report_text(run->images, position->reference ? "reference" : "");
+    report_number(run->images, position->exposure, 4);
 }
 
 aur_result lab_picture(lab_run *run, const lab_image_position *position, const aur_image *image,
@@ -40,6 +40,6 @@ aur_result lab_picture(lab_run *run, const lab_image_position *position, const a
         if (result != AUR_OK)
             return result;
     }
-    list_picture(run, position, path);
-    return lab_run_save(run, run->pictures, "pictures", NULL, false, error);
+    list_image(run, position, path);
+    return lab_run_save(run, run->images, "pictures", NULL, false, error);
 }

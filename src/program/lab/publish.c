@@ -8,7 +8,7 @@
 
 /* A small page halves images of more pixels than SMALL_PIXELS if they remain at least SMALL_WIDTH wide. For
  * each experiment it shows one such view and the first rows of long tables. */
-enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160, SMALL_ROWS = 25, SMALL_WIDTH = 128 };
+enum { MOST_IMAGES = 32, SMALL_PIXELS = 128 * 160, SMALL_ROWS = 25, SMALL_WIDTH = 128 };
 
 static void put_notes(FILE *page, const char *notes) {
     if (notes == NULL || *notes == '\0')
@@ -74,8 +74,8 @@ static aur_result put_summary(const publication *p, aur_error *error) {
 }
 
 /* The image, or block means if it is large and the page is small. */
-static aur_result read_picture(const publication *p, const char *path, aur_image **image, bool *reduced,
-                               aur_error *error) {
+static aur_result read_image(const publication *p, const char *path, aur_image **image, bool *reduced,
+                             aur_error *error) {
     aur_image *whole = NULL;
     const aur_result result = aur_image_read(path, &whole, error);
     *image = whole;
@@ -91,41 +91,41 @@ static aur_result read_picture(const publication *p, const char *path, aur_image
 /* The images of one view, from row `first` of their table on. */
 static aur_result put_view(const publication *p, const lab_experiment *of, const report_table *list,
                            size_t first, bool *shown, aur_error *error) {
-    enum { VIEW, NAME, PLACE, ROLE, EXPOSURE };
+    enum { VIEW, NAME, FILE_NAME, ROLE, EXPOSURE };
     const char *const view = report_cell(list, first, VIEW);
-    report_image pictures[MOST_PICTURES];
-    aur_image *images[MOST_PICTURES];
+    report_image views[MOST_IMAGES];
+    aur_image *images[MOST_IMAGES];
     size_t count = 0;
     bool reduced = false;
     aur_result result = AUR_OK;
-    for (size_t row = first; row < report_rows(list) && count < MOST_PICTURES && result == AUR_OK; ++row) {
+    for (size_t row = first; row < report_rows(list) && count < MOST_IMAGES && result == AUR_OK; ++row) {
         if (strcmp(report_cell(list, row, VIEW), view) != 0 || (view[0] == '\0' && row != first))
             continue;
         char path[2 * AUR_ERROR_FILE_CAPACITY];
-        const char *const file = report_cell(list, row, PLACE);
+        const char *const file = report_cell(list, row, FILE_NAME);
         if (strchr(file, '/') != NULL)
             return aur_fail(error, AUR_ERROR_FORMAT, "%s: '%s' is not the file name of an image", of->name,
                             file);
         snprintf(path, sizeof path, "%s/%s/%s", p->results, of->name, file);
-        result = read_picture(p, path, &images[count], &reduced, error);
-        pictures[count] = (report_image){.name = report_cell(list, row, NAME),
-                                         .image = images[count],
-                                         .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
-                                         .dropped_bits = p->small ? 4 : 1};
+        result = read_image(p, path, &images[count], &reduced, error);
+        views[count] = (report_image){.name = report_cell(list, row, NAME),
+                                      .image = images[count],
+                                      .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
+                                      .dropped_bits = p->small ? 4 : 1};
         count += result == AUR_OK;
     }
     char title[256];
     snprintf(title, sizeof title, "%s%s", view, reduced ? " (means of 2 x 2 pixels)" : "");
     *shown = result == AUR_OK && (!p->small || aur_image_width(images[0]) >= SMALL_WIDTH);
     if (*shown)
-        result = report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), NULL, count,
-                                    pictures, error);
+        result = report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), NULL, count, views,
+                                    error);
     for (size_t i = 0; i < count; ++i)
         aur_image_destroy(images[i]);
     return result;
 }
 
-static aur_result put_pictures(const publication *p, const lab_experiment *of, aur_error *error) {
+static aur_result put_images(const publication *p, const lab_experiment *of, aur_error *error) {
     char path[AUR_ERROR_FILE_CAPACITY];
     report_table *list = NULL;
     publication_path(p, of, "pictures", path, sizeof path);
@@ -170,7 +170,7 @@ static aur_result put_experiment(const publication *p, const lab_experiment *of,
     if (result == AUR_OK)
         result = report_page_table(p->page, table, name, p->small ? SMALL_ROWS : SIZE_MAX, error);
     if (result == AUR_OK)
-        result = put_pictures(p, of, error);
+        result = put_images(p, of, error);
     fputs("</section>\n", p->page);
     report_destroy(table);
     free(notes);

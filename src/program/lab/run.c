@@ -81,7 +81,7 @@ bool lab_is_finished(const lab_experiment *experiment, const lab_options *option
 
 /* Creates the folder and the state of the run. */
 static aur_result begin(lab_run *run, aur_error *error) {
-    static const char *const of_pictures[] = {"view", "name", "file", "role", "exposure", NULL};
+    static const char *const of_images[] = {"view", "name", "file", "role", "exposure", NULL};
     static const char *const of_times[] = {"what", "cpu_seconds", NULL};
     char path[AUR_ERROR_FILE_CAPACITY], identity[LAB_IDENTITY];
     snprintf(run->folder, sizeof run->folder, "%s/%s", run->options.folder, run->experiment->name);
@@ -98,9 +98,9 @@ static aur_result begin(lab_run *run, aur_error *error) {
     if (result != AUR_OK)
         return result;
     lab_run_path(run, "pictures", "csv", path, sizeof path);
-    if (!lab_store_continues(run->store) || report_load(path, &run->pictures, NULL, NULL) != AUR_OK) {
-        run->pictures = report_create(0, NULL);
-        add_columns(run->pictures, of_pictures);
+    if (!lab_store_continues(run->store) || report_load(path, &run->images, NULL, NULL) != AUR_OK) {
+        run->images = report_create(0, NULL);
+        add_columns(run->images, of_images);
         if (aur_ranks_rank() == 0)
             unlink(path);
     }
@@ -156,8 +156,8 @@ static aur_result save_all(lab_run *run, aur_error *error) {
     aur_result result = lab_run_save(run, run->result->table, NULL, run->result->notes, true, error);
     for (size_t i = 0; i < run->further_count && result == AUR_OK; ++i)
         result = lab_run_save(run, run->further[i], run->further_names[i], NULL, true, error);
-    for (size_t i = 0; i < report_rows(run->pictures); ++i)
-        fprintf(run->files, "%s/%s\n", run->folder, report_cell(run->pictures, i, 2));
+    for (size_t i = 0; i < report_rows(run->images); ++i)
+        fprintf(run->files, "%s/%s\n", run->folder, report_cell(run->images, i, 2));
     char raw[AUR_ERROR_FILE_CAPACITY];
     bool written = false;
     lab_run_path(run, "unfinished", "txt", path, sizeof path);
@@ -224,7 +224,7 @@ aur_result lab_run_experiment(const lab_experiment *experiment, const lab_option
     if (outcome == AUR_OK && !(ready && noted && listed))
         outcome = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     lab_store_close(run.store);
-    report_destroy(run.pictures);
+    report_destroy(run.images);
     report_destroy(run.times);
     for (size_t i = 0; i < run.further_count; ++i)
         report_destroy(run.further[i]);

@@ -38,7 +38,7 @@ struct lab_run {
     lab_result *result;
     FILE *notes, *files; /* in memory */
     lab_store *store;
-    report_table *pictures, *times;
+    report_table *images, *times;
     size_t further_count;
     report_table *further[LAB_FURTHER_TABLES];
     const char *further_names[LAB_FURTHER_TABLES];

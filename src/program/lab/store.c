@@ -66,7 +66,7 @@ static aur_result take_up(lab_store *store, const char *identity, aur_error *err
 
 /* Opens a file for appending, and truncates it if its identity differs. Rejects links, pipes, devices and
  * hard links to other names. NULL with errno. */
-static FILE *open_own(const char *path) {
+static FILE *open_folder(const char *path) {
     const int descriptor =
         open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
     struct stat status;
@@ -86,7 +86,7 @@ aur_result lab_store_open(const char *path, const char *identity, lab_store **st
     snprintf((*store)->path, sizeof(*store)->path, "%s", path);
     if (aur_ranks_count() > 1)
         return AUR_OK;
-    (*store)->file = open_own(path);
+    (*store)->file = open_folder(path);
     aur_result result = AUR_OK;
     if ((*store)->file == NULL)
         result = fail(*store, AUR_ERROR_WRITE, strerror(errno), error);

@@ -30,22 +30,23 @@ aur_result aur_ggx_rule_create(const aur_ggx_rule_options *options, aur_ggx_rule
     const aur_gather_rule_options *const pattern = &options->pattern;
     const aur_weights_options weights = {
         .size = sizeof weights, .regularization = options->regularization, .sum_constraint = true};
-    const aur_oswa_options wanted = {.size = sizeof wanted,
-                                     .set = pattern->set,
-                                     .mirror_count = pattern->count,
-                                     .mirror_lobe = {.kind = AUR_LOBE_GGX, .alpha = (double)options->alpha},
-                                     .map = pattern->map,
-                                     .scramble = pattern->scramble,
-                                     .seed = pattern->seed,
-                                     .smoothness = pattern->smoothness,
-                                     .weights = &weights};
+    const aur_oswa_options requested = {
+        .size = sizeof requested,
+        .set = pattern->set,
+        .mirror_count = pattern->count,
+        .mirror_lobe = {.kind = AUR_LOBE_GGX, .alpha = (double)options->alpha},
+        .map = pattern->map,
+        .scramble = pattern->scramble,
+        .seed = pattern->seed,
+        .smoothness = pattern->smoothness,
+        .weights = &weights};
     const aur_weight_table_grid grid = {.size = sizeof grid,
                                         .angle_count = ANGLES,
                                         .roughness_count = 1,
                                         .rotation_count = pattern->rotations};
     *rule = (aur_ggx_rule){.alpha = options->alpha, .count = pattern->count, .rotations = pattern->rotations};
     aur_result result =
-        aur_weight_table_build(&wanted, &grid, options->threads, &options->progress, &rule->table, error);
+        aur_weight_table_build(&requested, &grid, options->threads, &options->progress, &rule->table, error);
     if (result == AUR_OK)
         result = fill_square(rule, pattern->seed, error);
     if (result != AUR_OK)

@@ -114,7 +114,7 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
     const aur_weights_options weights = {.size = sizeof weights,
                                          .regularization = options->regularization,
                                          .sum_constraint = options->method == AUR_WEIGHTS_OSWA};
-    aur_oswa_options wanted = oswa_options(options, &weights);
+    aur_oswa_options requested = oswa_options(options, &weights);
     const aur_weight_table_grid grid = {.size = sizeof grid,
                                         .angle_count = angle_count(options->exponent),
                                         .roughness_count = 1,
@@ -122,12 +122,12 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
     aur_result result = AUR_OK;
     if (options->method == AUR_WEIGHTS_OSWA)
         result = (options->use_cache ? aur_weight_table_find : aur_weight_table_build)(
-            &wanted, &grid, options->threads, &options->progress, &rule->table, error);
+            &requested, &grid, options->threads, &options->progress, &rule->table, error);
     if (options->method == AUR_WEIGHTS_SOLVE)
-        wanted.published_z = (aur_z_grid){
+        requested.published_z = (aur_z_grid){
             .angle_count = 64, .exponent_count = 32, .largest_exponent = fmax(1.0, options->exponent)};
     if (result == AUR_OK)
-        result = fill_directions(rule, &wanted, error);
+        result = fill_directions(rule, &requested, error);
     if (result == AUR_OK && rule->table != NULL)
         result = compile(rule, error);
     return result;

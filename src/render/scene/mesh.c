@@ -89,7 +89,7 @@ void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur
 /* Larger meshes store their points in doubles, 24 bytes each, only on request. */
 enum { EXACT_VERTICES = 1 << 16 };
 
-aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
+aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool with_points, aur_location location,
                              aur_error *error) {
     mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof(float));
     if (mesh->positions == NULL)
@@ -106,7 +106,7 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
     for (size_t k = 0; i < 3 * mesh->vertex_count; ++i, ++k)
         mesh->positions[i] = (float)(mesh->points[i] - origins[k]);
     mesh->positions[3 * mesh->vertex_count] = 0.0f;
-    if (keep_points || mesh->vertex_count <= EXACT_VERTICES)
+    if (with_points || mesh->vertex_count <= EXACT_VERTICES)
         return AUR_OK;
     free(mesh->points);
     mesh->points = NULL;

@@ -36,7 +36,7 @@ void aur_mesh_take_indices(aur_mesh *mesh, size_t count, uint32_t **indices);
  * outside. */
 void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local);
 /* Computes `positions` from `points`, as floats relative to `origin`. */
-aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
+aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool with_points, aur_location location,
                              aur_error *error);
 /* Swaps inside and outside. */
 void aur_mesh_flip(aur_mesh *mesh);

@@ -132,8 +132,8 @@ static bool number(triangles *t) {
     bool large = false;
     for (size_t i = 0; i < t->shape_count; ++i)
         large |= t->scene->shapes[t->shapes[i]]->mesh.triangle_count > LARGE_MESH;
-    box *const boxes = large && !t->scene->keeps_points ? malloc(t->shape_count * sizeof *boxes) : NULL;
-    if (large && !t->scene->keeps_points && boxes == NULL)
+    box *const boxes = large && !t->scene->stores_points ? malloc(t->shape_count * sizeof *boxes) : NULL;
+    if (large && !t->scene->stores_points && boxes == NULL)
         return false;
     for (size_t i = 0; boxes != NULL && i < t->shape_count; ++i) {
         const aur_mesh *const mesh = &t->scene->shapes[t->shapes[i]]->mesh;
@@ -580,7 +580,7 @@ static aur_result cut_group(aur_scene *scene, const aur_shape_group *group, size
     aur_overlaps overlaps = {0};
     aur_result result = collect(scene, group, &t) ? AUR_OK : aur_fail_memory(error);
     const aur_triangle_source source = {t.starts != NULL ? t.starts[t.shape_count] : 0, &t, find_corners,
-                                        scene->keeps_points};
+                                        scene->stores_points};
     if (result == AUR_OK)
         result = aur_overlaps_find(&source, threads, &overlaps, error);
     size_t remaining = 0;

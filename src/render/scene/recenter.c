@@ -62,7 +62,7 @@ static aur_result recenter_group(aur_scene *scene, aur_shape_group *group, aur_e
     aur_result result = choose(scene, group, NULL, group->origin, error);
     for (size_t i = 0; i < group->count && result == AUR_OK; ++i)
         result =
-            aur_shape_recenter(scene->shapes[group->shapes[i]], group->origin, scene->keeps_points, error);
+            aur_shape_recenter(scene->shapes[group->shapes[i]], group->origin, scene->stores_points, error);
     return result;
 }
 
@@ -80,7 +80,7 @@ aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, au
         result = recenter_group(scene, scene->groups[i], error);
     for (size_t i = 0; i < scene->shape_count && result == AUR_OK; ++i)
         if (!scene->shapes[i]->grouped)
-            result = aur_shape_recenter(scene->shapes[i], scene->origin, scene->keeps_points, error);
+            result = aur_shape_recenter(scene->shapes[i], scene->origin, scene->stores_points, error);
     for (size_t i = 0; i < scene->instance_count && result == AUR_OK; ++i)
         recenter_instance(scene->instances[i], scene->origin);
     for (size_t i = 0; i < scene->volume_count && result == AUR_OK; ++i)

@@ -166,7 +166,7 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
 
 /* Reads the file at `path`, or `data` if not NULL. */
 static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
-                       bool keep_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
+                       bool with_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
     *scene = NULL;
     aur_scene_options options = {.size = sizeof options};
     aur_scene_options_init(&options, NULL);
@@ -176,7 +176,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     aur_scene *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);
-    created->keeps_points = keep_points;
+    created->stores_points = with_points;
     created->overlap_rule = rule;
     created->definitions = aur_definitions_text(&options);
     if (options.texture_memory > 0)
@@ -189,7 +189,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
         result = aur_scene_build(created, &options, error);
     if (result == AUR_OK)
         result = aur_scene_cut_overlaps(created, options.threads, error);
-    if (result == AUR_OK && !keep_points)
+    if (result == AUR_OK && !with_points)
         aur_scene_warn_of_overlaps(created, &options.warnings);
     if (result == AUR_OK)
         result = aur_scene_recenter(created, &options.warnings, error);

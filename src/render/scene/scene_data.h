@@ -103,7 +103,7 @@ struct aur_scene {
     aur_embree_scene accel;
     size_t packet_size; /* 16, 8, 4 or 0: aur_embree_packet_size */
     double origin[3];   /* of the coordinates below, and of shapes, lights and cameras */
-    bool keeps_points;  /* keep mesh points in doubles */
+    bool stores_points; /* keep mesh points in doubles */
     aur_overlap_rule overlap_rule;
     aur_scene_overlap overlap;
     aur_vector lower, upper;

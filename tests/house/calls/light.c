@@ -26,7 +26,7 @@ static const char scene_text[] =
     "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>\n"
     "</scene>\n";
 
-static void pictures(void) {
+static void images(void) {
     aur_image *image = NULL, *other = NULL;
     refuse(aur_image_create(0, 4, 3, &image, &error), AUR_ERROR_ARGUMENT, &error);
     accept(aur_image_create(4, 4, 3, &image, &error), &error);
@@ -351,7 +351,7 @@ static void view_factors(void) {
 }
 
 int main(void) {
-    pictures();
+    images();
     aur_scene *const scene = scenes();
     renders(scene);
     adaptive_renders(scene);

@@ -12,10 +12,10 @@ int main(int, char **arguments) {
     aur_render_options options = aureole::options<aur_render_options>(aur_render_options_init);
     options.width = options.height = 8;
     options.samples_per_pixel = 1;
-    const image picture = maker.render(options);
-    picture.write("picture.pfm");
+    const image rendered = maker.render(options);
+    rendered.write("picture.pfm");
     const image again = image::read("picture.pfm");
-    if (picture.width() != 8 || again.data()[7] != picture.data()[7 / 3 * picture.channels() + 7 % 3])
+    if (rendered.width() != 8 || again.data()[7] != rendered.data()[7 / 3 * rendered.channels() + 7 % 3])
         return std::puts("the picture that was written is another one"), 1;
     try {
         options.integrator = "pasta";

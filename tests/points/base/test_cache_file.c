@@ -66,10 +66,10 @@ static int remove_folder(void **state) {
     return failed;
 }
 
-static bool is_stored(const char *key, const char *wanted) {
+static bool is_stored(const char *key, const char *expected) {
     size_t size;
     char *const data = aur_cache_file_read("kind", key, &size);
-    const bool same = data != NULL && size == strlen(wanted) && strcmp(data, wanted) == 0;
+    const bool same = data != NULL && size == strlen(expected) && strcmp(data, expected) == 0;
     free(data);
     return same;
 }

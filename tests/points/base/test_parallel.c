@@ -145,7 +145,7 @@ typedef struct depth {
     aur_result inner_result;
 } depth;
 
-static aur_result ask_often(void *context, size_t index) {
+static aur_result check_often(void *context, size_t index) {
     (void)index;
     depth *const d = context;
     for (int i = 0; i < 3; ++i)
@@ -161,7 +161,7 @@ static int work_deeper(void *user, const char *what, uint64_t done, uint64_t tot
 static aur_result work_at(depth *d) {
     const aur_parallel_options options = {
         .threads = 2, .progress = {work_deeper, d}, .flush_denormals = true};
-    return aur_parallel_for(&options, 4, ask_often, d, NULL);
+    return aur_parallel_for(&options, 4, check_often, d, NULL);
 }
 
 static int work_deeper(void *user, const char *what, uint64_t done, uint64_t total) {

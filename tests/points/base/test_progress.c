@@ -5,7 +5,7 @@
 
 #include "check.h"
 
-static int keep(void *user, const char *what, uint64_t done, uint64_t total) {
+static int record(void *user, const char *what, uint64_t done, uint64_t total) {
     assert_string_equal(what, "piece");
     *(double *)user = (double)done / (double)total;
     return 7;
@@ -14,7 +14,7 @@ static int keep(void *user, const char *what, uint64_t done, uint64_t total) {
 static void test_pieces(void **state) {
     (void)state;
     double seen = -1.0;
-    aur_progress_span span = {.whole = {keep, &seen}, .from = 0.25, .to = 0.75};
+    aur_progress_span span = {.whole = {record, &seen}, .from = 0.25, .to = 0.75};
     const aur_progress piece = aur_progress_within(&span);
     assert_int_equal(piece.function(piece.user, "piece", 1, 2), 7);
     assert_true(seen == 0.5);
@@ -34,7 +34,7 @@ typedef struct report {
     uint64_t done, total;
 } report;
 
-static int keep_both(void *user, const char *what, uint64_t done, uint64_t total) {
+static int record_both(void *user, const char *what, uint64_t done, uint64_t total) {
     (void)what;
     *(report *)user = (report){done, total};
     return 0;
@@ -45,7 +45,7 @@ static int keep_both(void *user, const char *what, uint64_t done, uint64_t total
 static void test_share(void **state) {
     (void)state;
     report seen;
-    const aur_progress progress = {keep_both, &seen};
+    const aur_progress progress = {record_both, &seen};
     aur_progress_share share = {0}, s = {0};
     for (int i = 1; i <= 10; ++i) {
         aur_progress_report_work(&progress, "all", &share, i, 10 - i);

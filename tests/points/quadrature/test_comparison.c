@@ -196,9 +196,9 @@ static void test_reweighting(void **state) {
     aur_directions_destroy(directions);
     aur_potential *const ggx_lobe = create(&(aur_density){
         .size = sizeof(aur_density), .kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees});
-    const aur_potential *const wanted[] = {ggx_lobe};
+    const aur_potential *const target[] = {ggx_lobe};
     aur_weights_report report;
-    assert_int_equal(aur_weights_solve(N, xyz, 1, wanted, NULL, N, exact, &report, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(N, xyz, 1, target, NULL, N, exact, &report, NULL, NULL), AUR_OK);
     /* The best of many fits, about the mirror direction, is still worse. */
     double best = 1e9, best_exponent = 0.0;
     for (double m = 2.0; m < 40.0; m *= 1.2) {

@@ -91,9 +91,9 @@ static void test_coverage(void **state) {
             aur_moments_add(&values, found[0].value);
             squares += found[0].error * found[0].error / SEEDS;
         }
-        const double wanted = confidences[k] * SEEDS, deviation = sqrt(wanted * (1.0 - confidences[k]));
+        const double expected = confidences[k] * SEEDS, deviation = sqrt(expected * (1.0 - confidences[k]));
         print_message("confidence %g: %zu of %d hold the mean\n", confidences[k], held, (int)SEEDS);
-        assert_in_range(held, wanted - 5.0 * deviation, wanted + 5.0 * deviation);
+        assert_in_range(held, expected - 5.0 * deviation, expected + 5.0 * deviation);
         /* The variance of 1000 values errs by 4.5 %. */
         assert_relative(squares, aur_moments_variance(&values), 0.25);
     }

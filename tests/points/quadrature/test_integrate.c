@@ -163,9 +163,10 @@ static void coverage(void **state) {
             assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
             held += fabs(integral.value - expected) <= integral.interval;
         }
-        const double wanted = confidences[k] * SEEDS, deviation = sqrt(wanted * (1.0 - confidences[k]));
+        const double expected_hits = confidences[k] * SEEDS,
+                     deviation = sqrt(expected_hits * (1.0 - confidences[k]));
         print_message("confidence %g: %zu of %d hold the integral\n", confidences[k], held, (int)SEEDS);
-        assert_in_range(held, wanted - 5.0 * deviation, wanted + 5.0 * deviation);
+        assert_in_range(held, expected_hits - 5.0 * deviation, expected_hits + 5.0 * deviation);
     }
 }
 

@@ -75,16 +75,15 @@ static void test_mirror_image(void **state) {
     const aur_oswa_options options = pair(20.0, 1);
     aur_oswa *oswa;
     assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
-    double straight[3 * 96], mirrored[3 * 96], weights[2 * 96], error[2];
-    assert_int_equal(aur_oswa_points(oswa, 1.0, turns, false, 3 * aur_oswa_size(oswa), straight, NULL),
-                     AUR_OK);
+    double direct[3 * 96], mirrored[3 * 96], weights[2 * 96], error[2];
+    assert_int_equal(aur_oswa_points(oswa, 1.0, turns, false, 3 * aur_oswa_size(oswa), direct, NULL), AUR_OK);
     assert_int_equal(aur_oswa_points(oswa, 1.0, turns, true, 3 * aur_oswa_size(oswa), mirrored, NULL),
                      AUR_OK);
     assert_int_equal(aur_oswa_solve(oswa, 1.0, turns, 2 * aur_oswa_size(oswa), weights, NULL, NULL), AUR_OK);
     aur_potential *const glossy = create(&(aur_density){
         .size = sizeof(aur_density), .exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = true});
-    assert_true(straight[1] == -mirrored[1] && straight[1] != 0.0);
-    aur_worst_case_error(96, straight, weights + 96, glossy, NULL, &error[0], NULL);
+    assert_true(direct[1] == -mirrored[1] && direct[1] != 0.0);
+    aur_worst_case_error(96, direct, weights + 96, glossy, NULL, &error[0], NULL);
     aur_worst_case_error(96, mirrored, weights + 96, glossy, NULL, &error[1], NULL);
     assert_near(error[0], error[1], 1e-13);
     aur_potential_destroy(glossy);

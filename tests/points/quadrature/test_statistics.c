@@ -22,18 +22,18 @@ typedef struct request {
     uint64_t seed;
 } request;
 
-static void draw(const request *wanted, double *xyz, double *weights) {
+static void draw(const request *given, double *xyz, double *weights) {
     const aur_directions_options options = {.size = sizeof options,
-                                            .count = wanted->count,
+                                            .count = given->count,
                                             .domain = AUR_DOMAIN_HEMISPHERE,
-                                            .lobe = {.exponent = wanted->exponent},
-                                            .optimal_density = wanted->optimal,
-                                            .scramble = wanted->scramble,
-                                            .seed = wanted->seed};
+                                            .lobe = {.exponent = given->exponent},
+                                            .optimal_density = given->optimal,
+                                            .scramble = given->scramble,
+                                            .seed = given->seed};
     aur_directions *directions;
-    assert_int_equal(aur_directions_create(wanted->set, &options, &directions, NULL), AUR_OK);
-    assert_int_equal(
-        aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL), AUR_OK);
+    assert_int_equal(aur_directions_create(given->set, &options, &directions, NULL), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, given->count, 3 * given->count, xyz, weights, NULL),
+                     AUR_OK);
     aur_directions_destroy(directions);
 }
 
@@ -82,16 +82,16 @@ static void test_published_gains(void **state) {
 
 /* Least-squares slopes of log wce against log N over 16..1024, equal and optimal; the mean square over seeds.
  */
-static void slopes(const request *wanted, size_t seeds, double slope[2], double gain[7]) {
+static void slopes(const request *given, size_t seeds, double slope[2], double gain[7]) {
     enum { SIZES = 7, MOST = 1024 };
     double *const xyz = malloc(4 * MOST * sizeof *xyz);
     double *const weights = xyz + 3 * MOST;
     aur_potential *const potential =
-        create(&(aur_density){.size = sizeof(aur_density), .exponent = wanted->exponent}, 1.5);
+        create(&(aur_density){.size = sizeof(aur_density), .exponent = given->exponent}, 1.5);
     const aur_potential *const potentials[] = {potential};
     double x[SIZES], y[2][SIZES];
     for (size_t i = 0; i < SIZES; ++i) {
-        request drawn = *wanted;
+        request drawn = *given;
         drawn.count = (size_t)16 << i;
         double squares[2] = {0};
         for (drawn.seed = 0; drawn.seed < seeds; ++drawn.seed) {
@@ -213,7 +213,7 @@ static void check_clipping(double degrees) {
                                 .lobe = {.exponent = 1.0},
                                 .mirror_lobe = {.exponent = 20.0},
                                 .scramble = AUR_SCRAMBLE_DIGIT};
-    double *const truth_xyz = malloc(3 * REFERENCE * sizeof *truth_xyz);
+    double *const reference_xyz = malloc(3 * REFERENCE * sizeof *reference_xyz);
     double errors[3] = {0};
     for (uint64_t i = 0; i < LIGHTS; ++i) {
         const light l = random_light(i);
@@ -242,16 +242,16 @@ static void check_clipping(double degrees) {
         /* The reference value by many points of the lobe. */
         double exact = 0.0;
         if (i == 0) {
-            draw(&(request){"spherical-fibonacci", REFERENCE, 20.0, 0, AUR_SCRAMBLE_NONE, 0}, truth_xyz,
+            draw(&(request){"spherical-fibonacci", REFERENCE, 20.0, 0, AUR_SCRAMBLE_NONE, 0}, reference_xyz,
                  NULL);
             for (size_t k = 0; k < REFERENCE; ++k) {
-                const double x = truth_xyz[3 * k], z = truth_xyz[3 * k + 2];
-                truth_xyz[3 * k] = cos(angle) * x - sin(angle) * z;
-                truth_xyz[3 * k + 2] = sin(angle) * x + cos(angle) * z;
+                const double x = reference_xyz[3 * k], z = reference_xyz[3 * k + 2];
+                reference_xyz[3 * k] = cos(angle) * x - sin(angle) * z;
+                reference_xyz[3 * k + 2] = sin(angle) * x + cos(angle) * z;
             }
         }
         for (size_t k = 0; k < REFERENCE; ++k)
-            exact += radiance(&l, truth_xyz + 3 * k) / REFERENCE;
+            exact += radiance(&l, reference_xyz + 3 * k) / REFERENCE;
         for (int k = 0; k < 3; ++k)
             errors[k] += (found[k] - exact) * (found[k] - exact) / LIGHTS;
     }
@@ -261,7 +261,7 @@ static void check_clipping(double degrees) {
                   errors[0], errors[1], errors[0] / errors[1], errors[2]);
     assert_true(errors[0] >= 1.8 * errors[1]);
     assert_true(errors[0] > errors[2]);
-    free(truth_xyz);
+    free(reference_xyz);
 }
 
 static void test_clipping(void **state) {

@@ -5,21 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct own_points {
+typedef struct test_points {
     aur_domain domain;
     size_t count, dimension;
     double *coordinates, *weights;
-} own_points;
+} test_points;
 
-static inline aur_points_view seen(const own_points *points) {
+static inline aur_points_view seen(const test_points *points) {
     aur_points_view view =
         aur_points_view_of(points->domain, points->count, points->dimension, points->coordinates);
     view.weights = points->weights;
     return view;
 }
 
-static inline void release_points(own_points *points) {
+static inline void release_points(test_points *points) {
     free(points->coordinates);
     free(points->weights);
-    *points = (own_points){0};
+    *points = (test_points){0};
 }

@@ -6,14 +6,14 @@
 
 #include "sphere_sets.h"
 
-static own_points axes(size_t count, const double *xyz) {
-    own_points points = sphere_points(count);
+static test_points axes(size_t count, const double *xyz) {
+    test_points points = sphere_points(count);
     points.domain = AUR_DOMAIN_AXES;
     memcpy(points.coordinates, xyz, 3 * count * sizeof *xyz);
     return points;
 }
 
-static double measured(const char *metric, const own_points *points) {
+static double measured(const char *metric, const test_points *points) {
     double value = NAN;
     aur_error error = {0};
     if (aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error) != AUR_OK)
@@ -27,7 +27,7 @@ static const double frame[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
  * 1e6 away, so angles and areas of few points are good to 1e-10. */
 static void a_frame_has_the_figures_of_the_octahedron(void **state) {
     (void)state;
-    own_points three = axes(3, frame), six = octahedron();
+    test_points three = axes(3, frame), six = octahedron();
     static const char *const metrics[] = {"energy", "scd", "cap", "covering", "voronoi-max", "mesh-ratio"};
     for (size_t m = 0; m < sizeof metrics / sizeof metrics[0]; ++m)
         assert_near(measured(metrics[m], &three), measured(metrics[m], &six), 1e-10);
@@ -44,7 +44,7 @@ static void a_frame_has_the_figures_of_the_octahedron(void **state) {
 
 static void the_ends_do_not_matter(void **state) {
     (void)state;
-    own_points some = random_directions(50, 7), turned = random_directions(50, 7);
+    test_points some = random_directions(50, 7), turned = random_directions(50, 7);
     some.domain = turned.domain = AUR_DOMAIN_AXES;
     some.weights = malloc(50 * sizeof(double));
     turned.weights = malloc(50 * sizeof(double));
@@ -66,19 +66,19 @@ static void flat_axes_are_covered_at_a_right_angle(void **state) {
     (void)state;
     static const double flat[9] = {1, 0, 0, 0.6, 0.8, 0, 0, -1, 0};
     for (size_t count = 1; count <= 3; ++count) {
-        own_points points = axes(count, flat);
+        test_points points = axes(count, flat);
         assert_near(measured("covering", &points), 0.5 * AUR_PI, DBL_EPSILON);
         assert_true(measured("energy", &points) > 0.0);
         release_points(&points);
     }
-    own_points twice = axes(2, (const double[]){0, 0, 1, 0, 0, -1});
+    test_points twice = axes(2, (const double[]){0, 0, 1, 0, 0, -1});
     assert_near(measured("min-angle", &twice), 0.0, 0.0);
     release_points(&twice);
 }
 
 static void tables_are_of_axes(void **state) {
     (void)state;
-    own_points points = random_directions(400, 9);
+    test_points points = random_directions(400, 9);
     points.domain = AUR_DOMAIN_AXES;
     const aur_points_view view = seen(&points);
     aur_series *series;

@@ -4,7 +4,7 @@
 
 #include "sphere_sets.h"
 
-static double measured(const char *metric, const own_points *points, size_t threads) {
+static double measured(const char *metric, const test_points *points, size_t threads) {
     double value = NAN;
     aur_error error = {0};
     const aur_measure_options options = {.size = sizeof options, .threads = threads};
@@ -14,7 +14,7 @@ static double measured(const char *metric, const own_points *points, size_t thre
 }
 
 /* The mass of the closed cap about `w` whose boundary is at `height`, less its area. */
-static double value_of(const own_points *points, const double w[3], double height) {
+static double value_of(const test_points *points, const double w[3], double height) {
     double mass = 0.0, total = 0.0;
     for (size_t k = 0; k < points->count; ++k) {
         const double *const x = points->coordinates + 3 * k;
@@ -26,7 +26,7 @@ static double value_of(const own_points *points, const double w[3], double heigh
     return mass / total - 0.5 * (1.0 - height);
 }
 
-static double both_sides(const own_points *points, double w[3], const double x[3]) {
+static double both_sides(const test_points *points, double w[3], const double x[3]) {
     const double length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     if (length < 1e-9)
         return 0.0;
@@ -38,7 +38,7 @@ static double both_sides(const own_points *points, double w[3], const double x[3
 }
 
 /* Every cap through three points, with two on a diameter, or about one: O(N^4). */
-static double cap_by_all_triples(const own_points *points) {
+static double cap_by_all_triples(const test_points *points) {
     double best = 0.0;
     const double *const x = points->coordinates;
     for (size_t i = 0; i < points->count; ++i) {
@@ -67,7 +67,7 @@ static double cap_by_all_triples(const own_points *points) {
 
 static void caps_have_their_closed_forms(void **state) {
     (void)state;
-    own_points points = octahedron();
+    test_points points = octahedron();
     assert_near(measured("cap", &points, 1), 1.0 / 3.0, 1e-12);
     points.count = 2; /* an antipodal pair: one point, or both in a hemisphere */
     assert_near(measured("cap", &points, 1), 0.5, 1e-12);
@@ -83,7 +83,7 @@ static void caps_have_their_closed_forms(void **state) {
 /* Marques 2013 has none; computed by an independent program. */
 static void caps_have_their_golden_figures(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
     assert_near(measured("cap", &points, 0), 0.072890, 0.51e-6);
     assert_true(measured("cap-bound", &points, 0) < 0.072890);
     assert_true(measured("cap-bound", &points, 0) > 0.9 * 0.072890);
@@ -95,7 +95,7 @@ static void caps_have_their_golden_figures(void **state) {
 static void caps_agree_with_all_triples(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 24; ++seed) {
-        own_points points = random_directions(2 + 2 * seed, seed);
+        test_points points = random_directions(2 + 2 * seed, seed);
         if (seed % 3 == 1)
             for (size_t i = 0; i < points.count; ++i) {
                 double *const x = points.coordinates + 3 * i;
@@ -128,7 +128,7 @@ static void caps_agree_with_all_triples(void **state) {
 
 static void threads_change_no_bit(void **state) {
     (void)state;
-    own_points points = random_directions(150, 4);
+    test_points points = random_directions(150, 4);
     const double one = measured("cap", &points, 1);
     const double two = measured("cap", &points, 2);
     assert_memory_equal(&one, &two, sizeof one);
@@ -141,7 +141,7 @@ static void threads_change_no_bit(void **state) {
 
 static void negative_masses_are_refused(void **state) {
     (void)state;
-    own_points points = octahedron();
+    test_points points = octahedron();
     points.weights = malloc(6 * sizeof(double));
     for (size_t i = 0; i < 6; ++i)
         points.weights[i] = i == 3 ? -0.5 : 1.0;

@@ -8,7 +8,7 @@
 
 #include "points/base/simd.h"
 
-static double measured(const char *metric, const own_points *points) {
+static double measured(const char *metric, const test_points *points) {
     double value = NAN;
     aur_error error = {0};
     assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
@@ -19,7 +19,7 @@ static double measured(const char *metric, const own_points *points) {
 /* E_64 = 4.01610e-2, E_1024 = 4.98051e-3, C(64) = 0.8258, C(1024) = 0.8128. */
 static void spherical_fibonacci_has_the_golden_energy(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
     const double e64 = measured("energy", &points);
     assert_near(e64, 4.01610e-2, 0.5e-7);
     assert_near(e64 * e64 * 512.0, 0.8258, 0.5e-4);
@@ -42,7 +42,7 @@ static void spherical_fibonacci_has_the_golden_energy(void **state) {
 
 static void small_sets_have_their_closed_forms(void **state) {
     (void)state;
-    own_points points = octahedron();
+    test_points points = octahedron();
     /* 6 * (4 sqrt 2 + 2) / 36 is the mean distance. */
     assert_near(measured("energy", &points), sqrt(4.0 / 3.0 - (4.0 * sqrt(2.0) + 2.0) / 6.0), 1e-15);
     assert_near(measured("riesz:1", &points), 6.0 * (4.0 / sqrt(2.0) + 0.5), 1e-13);
@@ -72,7 +72,7 @@ static void random_sets_have_the_exact_expectation(void **state) {
     enum { SETS = 400, COUNT = 32 };
     double sum = 0.0, squares = 0.0;
     for (uint64_t seed = 0; seed < SETS; ++seed) {
-        own_points points = random_directions(COUNT, seed);
+        test_points points = random_directions(COUNT, seed);
         const double energy = measured("energy", &points);
         const double scaled = energy * energy * COUNT;
         sum += scaled;
@@ -89,9 +89,9 @@ static void weights_are_masses(void **state) {
     (void)state;
     static const char *const metrics[] = {"energy", "riesz:-1"};
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        own_points thrice = spherical_fibonacci(3, hemisphere ? AUR_DOMAIN_HEMISPHERE : AUR_DOMAIN_SPHERE);
+        test_points thrice = spherical_fibonacci(3, hemisphere ? AUR_DOMAIN_HEMISPHERE : AUR_DOMAIN_SPHERE);
         memcpy(thrice.coordinates + 6, thrice.coordinates, 3 * sizeof(double));
-        own_points weighted = thrice;
+        test_points weighted = thrice;
         double weights[3] = {2.0, 1.0, 0.0};
         weighted.count = 2;
         weighted.weights = weights;
@@ -137,7 +137,7 @@ static void the_potential_of_the_hemisphere_is_exact(void **state) {
 }
 
 /* The sum in long double, pair by pair. */
-static long double plain_sum(const own_points *points) {
+static long double plain_sum(const test_points *points) {
     long double sum = 0.0L;
     for (size_t i = 0; i < points->count; ++i)
         for (size_t j = 0; j < i; ++j) {
@@ -160,7 +160,7 @@ static void pair_sums_agree_with_long_double(void **state) {
     (void)state;
     static const size_t counts[] = {1, 2, 3, 7, 8, 9, 100, 1023, 1024, 1025, 2053, 3000};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c) {
-        own_points points = random_directions(counts[c], 7 + c);
+        test_points points = random_directions(counts[c], 7 + c);
         const double expected = (double)plain_sum(&points);
         aur_axes axes;
         assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
@@ -186,7 +186,7 @@ static void pair_sums_agree_with_long_double(void **state) {
 /* Nearly coincident and coincident points: the reciprocal root must survive them. */
 static void fast_sums_survive_coincident_points(void **state) {
     (void)state;
-    own_points points = random_directions(2048, 3);
+    test_points points = random_directions(2048, 3);
     for (size_t i = 1024; i < 2048; ++i)
         memcpy(points.coordinates + 3 * i, points.coordinates + 3 * (i % 1024), 3 * sizeof(double));
     points.coordinates[3 * 1500] += 1e-12;
@@ -241,7 +241,7 @@ static void fast_tiles_agree_with_exact_ones(void **state) {
     (void)state;
     const aur_distance_kernels *kernels[3];
     const size_t here = kernels_here(kernels);
-    own_points points = random_directions(600, 23);
+    test_points points = random_directions(600, 23);
     memcpy(points.coordinates, points.coordinates + 3 * 300, 3 * 20 * sizeof(double));
     aur_axes axes;
     assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
@@ -258,7 +258,7 @@ static void fast_tiles_agree_with_exact_ones(void **state) {
 
 static void neither_threads_nor_registers_change_a_bit(void **state) {
     (void)state;
-    own_points points = random_directions(5000, 11);
+    test_points points = random_directions(5000, 11);
     for (int fast = 0; fast < 2; ++fast) {
         double values[3];
         for (size_t threads = 1; threads <= 3; ++threads) {

@@ -5,7 +5,7 @@
 #include "sphere_sets.h"
 
 static double relative_difference(size_t count, aur_domain domain) {
-    own_points points = spherical_fibonacci(count, domain);
+    test_points points = spherical_fibonacci(count, domain);
     aur_axes axes;
     assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
     const aur_measure_options options = {.size = sizeof options};
@@ -37,7 +37,7 @@ static void lags_agree_with_pairs(void **state) {
 static void large_sets_are_near_the_limit(void **state) {
     (void)state;
     const size_t count = 200000;
-    own_points points = spherical_fibonacci(count, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(count, AUR_DOMAIN_SPHERE);
     assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     double energy = 0.0;
     assert_int_equal(aur_measure("energy", (const aur_points_view[]){seen(&points)}, NULL, &energy, NULL),
@@ -48,7 +48,7 @@ static void large_sets_are_near_the_limit(void **state) {
 
 static void the_set_is_recognised(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(5000, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(5000, AUR_DOMAIN_SPHERE);
     assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     for (size_t i = 0; i < points.count; ++i) { /* a rotation about z */
         double *const x = points.coordinates + 3 * i;

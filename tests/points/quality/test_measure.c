@@ -21,7 +21,7 @@ static void the_table_is_consistent(void **state) {
     assert_null(aur_measure_at(aur_measure_count()));
 }
 
-static void refused(const char *metric, const own_points *points, aur_result expected, const char *words) {
+static void refused(const char *metric, const test_points *points, aur_result expected, const char *words) {
     double value = 0.0;
     aur_error error = {0};
     assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
@@ -34,7 +34,7 @@ static void refused(const char *metric, const own_points *points, aur_result exp
 
 static void bad_input_is_refused_with_the_reason(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     refused("enrgy", &points, AUR_ERROR_NAME, "energy");
     refused("qqqqqqqqq", &points, AUR_ERROR_NAME, "qqqqqqqqq");
     refused("energy:2", &points, AUR_ERROR_ARGUMENT, "no parameter");
@@ -73,7 +73,7 @@ static void bad_input_is_refused_with_the_reason(void **state) {
 /* Points of seven digits are scaled to the sphere: the energy is right to their rounding, squared. */
 static void nearly_unit_points_are_scaled(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(100, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(100, AUR_DOMAIN_SPHERE);
     double exact = 0.0, scaled = 0.0;
     assert_int_equal(aur_measure("energy", (const aur_points_view[]){seen(&points)}, NULL, &exact, NULL),
                      AUR_OK);
@@ -94,7 +94,7 @@ static int stop(void *user, const char *what, uint64_t done, uint64_t total) {
 
 static void work_can_be_cancelled(void **state) {
     (void)state;
-    own_points points = random_directions(4000, 1);
+    test_points points = random_directions(4000, 1);
     const aur_measure_options options = {.size = sizeof options, .progress = {stop, NULL}};
     double value = 0.0;
     aur_error error = {0};
@@ -112,7 +112,7 @@ static void count_warning(void *user, const char *message) {
 
 static void options_can_grow(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     struct {
         aur_measure_options current;
         int option;
@@ -139,7 +139,7 @@ static void options_can_grow(void **state) {
 
 static void coincident_points_have_infinite_riesz_energy(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     memcpy(points.coordinates, points.coordinates + 3, 3 * sizeof(double));
     int warnings = 0;
     const aur_measure_options options = {.size = sizeof options, .warnings = {count_warning, &warnings}};
@@ -168,7 +168,7 @@ static void views_have_strides(void **state) {
                                                 "star-bound:50"};
     for (size_t flat = 0; flat < 2; ++flat) {
         const size_t dimension = flat ? 2 : 3;
-        own_points points = random_directions(COUNT, 3);
+        test_points points = random_directions(COUNT, 3);
         points.domain = flat ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_SPHERE;
         points.dimension = dimension;
         double wide[COUNT * STRIDE];

@@ -6,7 +6,7 @@
 
 /* By the definition: for each t, every elementary interval, counted from its edges. Base 2, two dimensions.
  */
-static double net_by_definition(const own_points *points) {
+static double net_by_definition(const test_points *points) {
     int m = 0;
     while ((size_t)1 << m < points->count)
         ++m;
@@ -47,7 +47,7 @@ static void known_nets_have_their_parameters(void **state) {
                  {"faure:base=5", "net:5", 125, 4, AUR_SCRAMBLE_NONE, 0.0},
                  {"hammersley", "net", 1, 2, AUR_SCRAMBLE_NONE, 0.0}};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; ++c) {
-        own_points points =
+        test_points points =
             scrambled_set(cases[c].set, cases[c].count, cases[c].dimension, cases[c].scramble);
         assert_near(measured(cases[c].metric, &points), cases[c].t, 0.0);
         release_points(&points);
@@ -57,7 +57,7 @@ static void known_nets_have_their_parameters(void **state) {
 static void the_parameter_agrees_with_its_definition(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 20; ++seed) {
-        own_points points = random_points((size_t)1 << (seed % 6), 2, seed);
+        test_points points = random_points((size_t)1 << (seed % 6), 2, seed);
         assert_near(measured("net", &points), net_by_definition(&points), 0.0);
         release_points(&points);
         /* A net with two points exchanged in one coordinate retains part of its strength. */
@@ -73,7 +73,7 @@ static void the_parameter_agrees_with_its_definition(void **state) {
 
 static void a_net_has_a_power_of_the_base(void **state) {
     (void)state;
-    own_points points = random_points(100, 2, 1);
+    test_points points = random_points(100, 2, 1);
     double value = 0.0;
     aur_error error = {0};
     assert_int_equal(aur_measure("net", (const aur_points_view[]){seen(&points)}, NULL, &value, &error),
@@ -91,15 +91,15 @@ static void a_net_has_a_power_of_the_base(void **state) {
 static void star_bounds_are_bounds(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 12; ++seed) {
-        own_points points = random_points(20 + 5 * seed, 2, seed);
+        test_points points = random_points(20 + 5 * seed, 2, seed);
         const double exact = measured("star", &points);
         const double bound = measured("star-bound:1024", &points);
         assert_true(bound <= exact + 1e-14);
         assert_true(bound >= 0.98 * exact);
         release_points(&points);
     }
-    own_points points = random_points(64, 5, 2);
-    own_points plane = random_points(64, 2, 2);
+    test_points points = random_points(64, 5, 2);
+    test_points plane = random_points(64, 2, 2);
     for (size_t i = 0; i < 64; ++i)
         for (size_t d = 0; d < 2; ++d)
             plane.coordinates[2 * i + d] = points.coordinates[5 * i + d];

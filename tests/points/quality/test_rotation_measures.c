@@ -7,15 +7,15 @@
 #include "points/base/random.h"
 #include "points/base/vector.h"
 
-static own_points rotations(size_t count) {
-    return (own_points){.domain = AUR_DOMAIN_ROTATIONS,
-                        .count = count,
-                        .dimension = 4,
-                        .coordinates = calloc(4 * count, sizeof(double))};
+static test_points rotations(size_t count) {
+    return (test_points){.domain = AUR_DOMAIN_ROTATIONS,
+                         .count = count,
+                         .dimension = 4,
+                         .coordinates = calloc(4 * count, sizeof(double))};
 }
 
-static own_points random_rotations(size_t count, uint64_t seed) {
-    own_points points = rotations(count);
+static test_points random_rotations(size_t count, uint64_t seed) {
+    test_points points = rotations(count);
     for (size_t i = 0; i < count; ++i) {
         aur_rotation rotation;
         aur_rotation_uniform(aur_hash2(seed, i), &rotation);
@@ -24,7 +24,7 @@ static own_points random_rotations(size_t count, uint64_t seed) {
     return points;
 }
 
-static double measured(const char *metric, const own_points *points) {
+static double measured(const char *metric, const test_points *points) {
     double value = NAN;
     aur_error error = {0};
     if (aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error) != AUR_OK)
@@ -43,7 +43,7 @@ static void groups_have_the_known_covering(void **state) {
                      {AUR_SYMMETRY_422, 98.421, 90}, {AUR_SYMMETRY_222, 120.0, 180.0},
                      {AUR_SYMMETRY_23, 90.0, 120},   {AUR_SYMMETRY_32, 104.478, 120}};
     for (size_t k = 0; k < sizeof published / sizeof published[0]; ++k) {
-        own_points group = rotations(AUR_SYMMETRY_ORDER_MAX);
+        test_points group = rotations(AUR_SYMMETRY_ORDER_MAX);
         group.count = aur_symmetry_group(published[k].symmetry, group.coordinates);
         assert_near(measured("covering", &group) * 180.0 / AUR_PI, published[k].degrees, 1e-3);
         assert_near(measured("min-angle", &group) * 180.0 / AUR_PI, published[k].nearest, 1e-6);
@@ -53,14 +53,14 @@ static void groups_have_the_known_covering(void **state) {
 
 static void one_rotation_has_the_closed_forms(void **state) {
     (void)state;
-    own_points one = rotations(1);
+    test_points one = rotations(1);
     one.coordinates[2] = -1.0;
     /* The quaternion and its opposite are 2 apart, and each from itself 0: 1 on average. */
     assert_near(measured("energy", &one), sqrt(64.0 / (15.0 * AUR_PI) - 1.0), 1e-15);
     assert_near(measured("covering", &one), AUR_PI, 0.0);
     assert_near(measured("riesz:1", &one), 0.0, 0.0);
     release_points(&one);
-    own_points two = rotations(2);
+    test_points two = rotations(2);
     two.coordinates[0] = two.coordinates[4] = 1.0;
     assert_near(measured("min-angle", &two), 0.0, 0.0);
     assert_true(isinf(measured("riesz:1", &two)));
@@ -77,7 +77,7 @@ static void random_rotations_have_the_mean_energy(void **state) {
     enum { COUNT = 200, SEEDS = 40 };
     double mean = 0.0;
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-        own_points points = random_rotations(COUNT, seed);
+        test_points points = random_rotations(COUNT, seed);
         const double value = measured("energy", &points);
         mean += value * value / SEEDS;
         release_points(&points);
@@ -89,7 +89,7 @@ static void random_rotations_have_the_mean_energy(void **state) {
 
 static void signs_and_equal_weights_do_not_matter(void **state) {
     (void)state;
-    own_points some = random_rotations(300, 9), other = random_rotations(300, 9);
+    test_points some = random_rotations(300, 9), other = random_rotations(300, 9);
     other.weights = malloc(300 * sizeof(double));
     for (size_t i = 0; i < 300; ++i) {
         other.weights[i] = 0.5;
@@ -106,7 +106,7 @@ static void signs_and_equal_weights_do_not_matter(void **state) {
 /* No tested rotation is farther away than the covering radius, and one comes near it. */
 static void the_covering_is_the_largest_hole(void **state) {
     (void)state;
-    own_points some = random_rotations(100, 5), tried = random_rotations(40000, 6);
+    test_points some = random_rotations(100, 5), tried = random_rotations(40000, 6);
     const double covering = measured("covering", &some);
     double worst = 1.0;
     for (size_t t = 0; t < tried.count; ++t) {

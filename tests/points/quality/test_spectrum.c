@@ -3,7 +3,7 @@
 #include "sphere_sets.h"
 #include "square_sets.h"
 
-static aur_series *table_to(double accuracy, const char *metric, const own_points *points, size_t threads) {
+static aur_series *table_to(double accuracy, const char *metric, const test_points *points, size_t threads) {
     const aur_measure_options options = {.size = sizeof options, .threads = threads, .accuracy = accuracy};
     aur_series *series;
     aur_error error = {0};
@@ -13,7 +13,7 @@ static aur_series *table_to(double accuracy, const char *metric, const own_point
     return series;
 }
 
-static aur_series *table(const char *metric, const own_points *points, size_t threads) {
+static aur_series *table(const char *metric, const test_points *points, size_t threads) {
     return table_to(0.0, metric, points, threads);
 }
 
@@ -21,7 +21,7 @@ static aur_series *table(const char *metric, const own_points *points, size_t th
 static void the_periodogram_is_the_transform(void **state) {
     (void)state;
     for (int weighted = 0; weighted < 2; ++weighted) {
-        own_points points = random_points(300, 2, 4);
+        test_points points = random_points(300, 2, 4);
         double squares = 300.0;
         if (weighted) {
             squares = 0.0;
@@ -64,7 +64,7 @@ static void the_periodogram_is_the_transform(void **state) {
 /* A grid has all its power at multiples of its frequency. */
 static void a_grid_has_lines(void **state) {
     (void)state;
-    own_points points = cube_points(64, 2);
+    test_points points = cube_points(64, 2);
     for (size_t i = 0; i < 64; ++i) {
         points.coordinates[2 * i] = (double)(i % 8) / 8.0;
         points.coordinates[2 * i + 1] = (double)(i / 8) / 8.0;
@@ -83,7 +83,7 @@ static void a_grid_has_lines(void **state) {
 static void the_angular_spectrum_is_the_sum_of_legendre_polynomials(void **state) {
     (void)state;
     enum { COUNT = 150, DEGREES = 60 };
-    own_points points = random_directions(COUNT, 8);
+    test_points points = random_directions(COUNT, 8);
     points.coordinates[0] = points.coordinates[1] = 0.0;
     points.coordinates[2] = -1.0;
     points.weights = malloc(COUNT * sizeof(double));
@@ -119,7 +119,7 @@ static void the_angular_spectrum_is_the_sum_of_legendre_polynomials(void **state
 /* E^2 is the sum over l of 4 / ((2l-1)(2l+3)) S_l / N; for degrees beyond the last S_l is near 1. */
 static void the_spectrum_adds_up_to_the_energy(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(100, AUR_DOMAIN_SPHERE);
+    test_points points = spherical_fibonacci(100, AUR_DOMAIN_SPHERE);
     aur_series *series = table("spectrum:1000", &points, 0);
     double sum = 0.0;
     for (size_t r = 0; r < aur_series_row_count(series); ++r) {
@@ -137,7 +137,7 @@ static void the_spectrum_adds_up_to_the_energy(void **state) {
 static void grids_reach_the_target_accuracy(void **state) {
     (void)state;
     enum { N = 1500 };
-    own_points sets[3] = {random_points(N, 2, 4), random_points(N, 2, 5), random_directions(N, 6)};
+    test_points sets[3] = {random_points(N, 2, 4), random_points(N, 2, 5), random_directions(N, 6)};
     sets[1].weights = malloc(N * sizeof(double));
     for (size_t i = 0; i < N; ++i)
         sets[1].weights[i] = aur_unit_double(aur_hash2(6, i)) - 0.25;

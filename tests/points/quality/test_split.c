@@ -9,7 +9,7 @@
 /* Distances are summed fast enough over all pairs of fewer points. */
 enum { COUNT = AUR_SPLIT_COUNT, MANY = 16384 };
 
-static double measured(const char *metric, const own_points *points, double accuracy, size_t threads,
+static double measured(const char *metric, const test_points *points, double accuracy, size_t threads,
                        double *bound) {
     aur_measure_options options = {.size = sizeof options};
     aur_measure_options_init(&options, NULL);
@@ -24,8 +24,8 @@ static double measured(const char *metric, const own_points *points, double accu
 }
 
 /* Half of the points in a cap of a twentieth of the sphere. */
-static own_points clustered(size_t count, uint64_t seed) {
-    own_points points = random_directions(count, seed);
+static test_points clustered(size_t count, uint64_t seed) {
+    test_points points = random_directions(count, seed);
     for (size_t j = 0; j < count / 2; ++j)
         set_direction(&points, j, 1.0 - 0.1 * aur_unit_double(aur_hash3(seed, j, 2)),
                       2.0 * AUR_PI * aur_unit_double(aur_hash3(seed, j, 3)));
@@ -33,14 +33,14 @@ static own_points clustered(size_t count, uint64_t seed) {
 }
 
 /* With a modified first point, so that the sum does not recognise the set. */
-static own_points nearly_fibonacci(size_t count, aur_domain domain) {
-    own_points points = spherical_fibonacci(count, domain);
+static test_points nearly_fibonacci(size_t count, aur_domain domain) {
+    test_points points = spherical_fibonacci(count, domain);
     set_direction(&points, 0, 0.9999, 1.0);
     return points;
 }
 
 /* Within the bound of the sum over all pairs, and the bound within the target. */
-static void agrees(const char *metric, const own_points *points, double accuracy) {
+static void agrees(const char *metric, const test_points *points, double accuracy) {
     double bound, none;
     const double exact = measured(metric, points, 0.0, 0, &none);
     const double fast = measured(metric, points, accuracy, 0, &bound);
@@ -52,7 +52,7 @@ static void agrees(const char *metric, const own_points *points, double accuracy
 
 static void sums_are_within_their_bound(void **state) {
     (void)state;
-    own_points points = random_directions(MANY, 1);
+    test_points points = random_directions(MANY, 1);
     agrees("energy", &points, 1e-6);
     points.weights = malloc(MANY * sizeof *points.weights);
     for (size_t i = 0; i < MANY; ++i)
@@ -87,7 +87,7 @@ static void sums_are_within_their_bound(void **state) {
  * bound or more, so that a bound a hundred times smaller would not hold. */
 static void bounds_are_not_loose(void **state) {
     (void)state;
-    own_points points = sphere_points(COUNT);
+    test_points points = sphere_points(COUNT);
     for (size_t j = 0; j < COUNT; ++j)
         for (size_t d = 0; d < 3; ++d)
             points.coordinates[3 * j + d] = j % 3 == d ? (j % 2 == 0 ? 1.0 : -1.0) : 0.0;
@@ -104,7 +104,7 @@ static void bounds_are_not_loose(void **state) {
 /* If the target cannot be guaranteed, the sum is over all pairs. */
 static void what_is_too_much_is_summed_exactly(void **state) {
     (void)state;
-    own_points points = nearly_fibonacci(MANY, AUR_DOMAIN_SPHERE);
+    test_points points = nearly_fibonacci(MANY, AUR_DOMAIN_SPHERE);
     double bound;
     const double exact = measured("energy", &points, 0.0, 0, &bound);
     assert_true(measured("energy", &points, 1e-13, 0, &bound) == exact && bound == 0.0);
@@ -127,7 +127,7 @@ static void what_is_too_much_is_summed_exactly(void **state) {
 
 static void coincident_points_are_infinitely_repelled(void **state) {
     (void)state;
-    own_points points = random_directions(MANY, 3);
+    test_points points = random_directions(MANY, 3);
     memcpy(points.coordinates + 3 * 3000, points.coordinates, 3 * sizeof(double));
     double bound;
     assert_true(isinf(measured("riesz:1", &points, 1e-6, 0, &bound)) && bound == 0.0);
@@ -138,7 +138,7 @@ static void coincident_points_are_infinitely_repelled(void **state) {
 
 static void bits_depend_on_nothing_else(void **state) {
     (void)state;
-    own_points points = clustered(MANY, 4);
+    test_points points = clustered(MANY, 4);
     static const char *const metrics[] = {"energy", "riesz:0.5"};
     for (size_t m = 0; m < 2; ++m) {
         double bounds[2];
@@ -184,7 +184,7 @@ static void the_smooth_part_is_the_error_function(void **state) {
         assert_relative(aur_split_smooth(&two, d * d), -expm1(-q) / (d * d), 4e-15);
     }
     enum { FEW = 700 };
-    own_points points = clustered(FEW, 5);
+    test_points points = clustered(FEW, 5);
     const aur_points_view view = seen(&points);
     for (double reach = 0.05; reach < 3.0; reach *= 2.5) {
         aur_arena arena = {0};

@@ -5,7 +5,7 @@
 #include "square_sets.h"
 
 /* Every box whose sides are coordinates of points or 1, open and closed. */
-static double star_by_all_boxes(const own_points *points) {
+static double star_by_all_boxes(const test_points *points) {
     double best = 0.0, mass = 0.0;
     for (size_t i = 0; i < points->count; ++i)
         mass += points->weights != NULL ? points->weights[i] : 1.0;
@@ -29,7 +29,7 @@ static void star_agrees_with_all_boxes(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 60; ++seed) {
         const size_t count = 1 + seed;
-        own_points points = random_points(count, 2, seed);
+        test_points points = random_points(count, 2, seed);
         /* Ties in one axis, in the other, and in both. */
         for (size_t i = 0; i < 2 * count && seed % 3 > 0; ++i)
             points.coordinates[i] =
@@ -50,7 +50,7 @@ static void hammersley_has_its_closed_form(void **state) {
     (void)state;
     for (int m = 2; m <= 14; ++m) {
         const size_t count = (size_t)1 << m;
-        own_points points = scrambled_set("hammersley", count, 2, AUR_SCRAMBLE_NONE);
+        test_points points = scrambled_set("hammersley", count, 2, AUR_SCRAMBLE_NONE);
         const double sign = m % 2 == 0 ? 1.0 : -1.0;
         const double expected = m / 3.0 + 13.0 / 9.0 - sign * 4.0 / (9.0 * (double)count);
         assert_near(measured("star", &points) * (double)count, expected, 1e-9);
@@ -65,7 +65,7 @@ static void the_best_points_of_the_line_have_closed_forms(void **state) {
     static const size_t counts[] = {1, 2, 5, 64};
     for (size_t c = 0; c < 4; ++c) {
         const double n = (double)counts[c];
-        own_points points = cube_points(counts[c], 1);
+        test_points points = cube_points(counts[c], 1);
         for (size_t i = 0; i < counts[c]; ++i)
             points.coordinates[i] = ((double)i + 0.5) / n;
         assert_near(measured("star", &points), 0.5 / n, 1e-15);
@@ -80,7 +80,7 @@ static void the_best_points_of_the_line_have_closed_forms(void **state) {
 static void l2_star_is_the_mean_over_boxes(void **state) {
     (void)state;
     enum { GRID = 64, FINE = 1024 };
-    own_points points = random_points(9, 2, 5);
+    test_points points = random_points(9, 2, 5);
     for (size_t i = 0; i < 18; ++i)
         points.coordinates[i] = floor(points.coordinates[i] * GRID) / GRID;
     double sum = 0.0;
@@ -109,7 +109,7 @@ static void random_sets_have_the_exact_expectations(void **state) {
     for (int m = 0; m < 3; ++m) {
         double sum = 0.0, squares = 0.0;
         for (uint64_t seed = 0; seed < SETS; ++seed) {
-            own_points points = random_points(COUNT, DIMENSION, seed);
+            test_points points = random_points(COUNT, DIMENSION, seed);
             const double value = measured(metrics[m], &points);
             sum += value * value;
             squares += value * value * value * value;
@@ -122,7 +122,7 @@ static void random_sets_have_the_exact_expectations(void **state) {
 
 static void exact_star_is_for_two_dimensions(void **state) {
     (void)state;
-    own_points points = random_points(10, 3, 1);
+    test_points points = random_points(10, 3, 1);
     double value = 0.0;
     assert_int_equal(aur_measure("star", (const aur_points_view[]){seen(&points)}, NULL, &value, NULL),
                      AUR_ERROR_UNSUPPORTED);

@@ -8,7 +8,7 @@
 #include "points/quality/sphere/voronoi.h"
 #include "sphere_sets.h"
 
-static double measured(const char *metric, const own_points *points) {
+static double measured(const char *metric, const test_points *points) {
     double value = NAN;
     aur_error error = {0};
     assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
@@ -22,7 +22,7 @@ static double dot(const double *a, const double *b) {
 
 static void the_grid_finds_all_neighbours(void **state) {
     (void)state;
-    own_points points = random_directions(700, 3);
+    test_points points = random_directions(700, 3);
     points.coordinates[0] = points.coordinates[1] = 0.0; /* a pole */
     points.coordinates[2] = 1.0;
     const aur_points_view view = seen(&points);
@@ -54,7 +54,7 @@ static void the_grid_finds_all_neighbours(void **state) {
 
 static void regular_sets_have_regular_cells(void **state) {
     (void)state;
-    own_points points = octahedron();
+    test_points points = octahedron();
     assert_near(measured("covering", &points), acos(1.0 / sqrt(3.0)), 1e-9);
     assert_near(measured("mesh-ratio", &points), acos(1.0 / sqrt(3.0)) / (AUR_PI / 4.0), 1e-9);
     assert_near(measured("voronoi-min", &points), 1.0, 1e-9);
@@ -80,7 +80,7 @@ static void regular_sets_have_regular_cells(void **state) {
 static void areas_add_up(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 4; ++seed) {
-        own_points points = random_directions(300, seed);
+        test_points points = random_directions(300, seed);
         if (seed % 2 == 1) {
             points.domain = AUR_DOMAIN_HEMISPHERE;
             for (size_t i = 0; i < points.count; ++i)
@@ -102,7 +102,7 @@ static void areas_add_up(void **state) {
 /* The least and greatest area and the standard deviation, by the table of all areas. */
 static void figures_are_those_of_the_table(void **state) {
     (void)state;
-    own_points points = random_directions(50, 9);
+    test_points points = random_directions(50, 9);
     aur_series *series;
     assert_int_equal(
         aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL), AUR_OK);
@@ -122,8 +122,8 @@ static void figures_are_those_of_the_table(void **state) {
     release_points(&points);
 }
 
-static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
-    own_points points = sphere_points(count);
+static test_points random_in_cap(size_t count, double degrees, uint64_t seed) {
+    test_points points = sphere_points(count);
     const double half = sin(degrees * (AUR_PI / 360.0));
     for (size_t j = 0; j < count; ++j) {
         /* By half the polar angle, which preserves the digits of small caps. */
@@ -137,7 +137,7 @@ static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
     return points;
 }
 
-static aur_series *cells_of_cap(const own_points *points, double degrees, size_t threads) {
+static aur_series *cells_of_cap(const test_points *points, double degrees, size_t threads) {
     aur_measure_options options = {.size = sizeof options};
     aur_measure_options_init(&options, NULL);
     options.cap_degrees = degrees;
@@ -156,7 +156,7 @@ static void areas_of_caps_add_up(void **state) {
     (void)state;
     static const double caps[] = {1e-6, 1e-3, 0.5, 20.0, 34.0, 60.0, 89.9999, 90.0, 90.0001, 120.0, 179.0};
     for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
-        own_points points = random_in_cap(300, caps[c], c);
+        test_points points = random_in_cap(300, caps[c], c);
         aur_series *const series = cells_of_cap(&points, caps[c], 1), *const other =
                                                                           cells_of_cap(&points, caps[c], 3);
         assert_memory_equal(aur_series_values(series), aur_series_values(other), 1200 * sizeof(double));
@@ -177,7 +177,7 @@ static void cells_of_caps_hold_what_is_nearest(void **state) {
     enum { COUNT = 24, SAMPLES = 100000 };
     static const double caps[] = {5.0, 50.0, 90.0, 130.0};
     for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
-        own_points points = random_in_cap(COUNT, caps[c], 7 + c);
+        test_points points = random_in_cap(COUNT, caps[c], 7 + c);
         aur_series *const series = cells_of_cap(&points, caps[c], 1);
         double share[COUNT] = {0.0}, farthest[COUNT] = {0.0};
         const double half = sin(caps[c] * (AUR_PI / 360.0));
@@ -216,7 +216,7 @@ static size_t arcs_of(const bool *there) {
     return arcs == 0 && there[0] ? 1 : arcs;
 }
 
-static size_t nearest_of(const own_points *points, const double way[3]) {
+static size_t nearest_of(const test_points *points, const double way[3]) {
     size_t best = 0;
     for (size_t i = 1; i < points->count; ++i)
         if (dot(way, points->coordinates + 3 * i) > dot(way, points->coordinates + 3 * best))
@@ -225,7 +225,7 @@ static size_t nearest_of(const own_points *points, const double way[3]) {
 }
 
 /* Arcs of the cell of point i: along the rim, and along the great circles between it and other points. */
-static size_t walked_sides(const own_points *points, double radians, size_t i) {
+static size_t walked_sides(const test_points *points, double radians, size_t i) {
     static bool there[WALK];
     const double *const x = points->coordinates + 3 * i;
     for (size_t k = 0; k < WALK; ++k) {
@@ -263,7 +263,7 @@ static void sides_of_caps_are_counted(void **state) {
     (void)state;
     static const double caps[] = {25.0, 60.0, 90.0, 130.0};
     for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
-        own_points points = random_in_cap(16, caps[c], 70 + c);
+        test_points points = random_in_cap(16, caps[c], 70 + c);
         aur_series *const series = cells_of_cap(&points, caps[c], 1);
         for (size_t i = 0; i < points.count; ++i)
             assert_int_equal((int)aur_series_values(series)[4 * i + 3],
@@ -276,7 +276,7 @@ static void sides_of_caps_are_counted(void **state) {
 /* One point has all of its cap; a cap of 90 degrees is the hemisphere; measures without caps report that. */
 static void caps_agree_with_known_values(void **state) {
     (void)state;
-    own_points points = random_in_cap(200, 90.0, 1), one = octahedron();
+    test_points points = random_in_cap(200, 90.0, 1), one = octahedron();
     memcpy(one.coordinates, one.coordinates + 12, 3 * sizeof(double));
     one.count = 1;
     aur_series *series = cells_of_cap(&one, 40.0, 1);
@@ -326,7 +326,7 @@ static const double corner_error = 1e-12;
 
 /* No point is nearer to a corner than the cell's own, and two others are as near; the corners turn
  * counter-clockwise about the point, and the triangles between make the cell's area. */
-static void check_corners(const own_points *points, aur_domain domain, size_t threads) {
+static void check_corners(const test_points *points, aur_domain domain, size_t threads) {
     aur_points_view view = seen(points);
     view.domain = domain;
     aur_measure_options options = {.size = sizeof options};
@@ -366,7 +366,7 @@ static void check_corners(const own_points *points, aur_domain domain, size_t th
 
 static void corners_are_as_far_from_three_points(void **state) {
     (void)state;
-    own_points points = random_directions(300, 5);
+    test_points points = random_directions(300, 5);
     check_corners(&points, AUR_DOMAIN_SPHERE, 1);
     check_corners(&points, AUR_DOMAIN_SPHERE, 3);
     check_corners(&points, AUR_DOMAIN_AXES, 1);
@@ -386,7 +386,7 @@ static void corners_are_as_far_from_three_points(void **state) {
 static void covering_agrees_with_all_triples(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 12; ++seed) {
-        own_points points = random_directions(4 + 3 * seed, seed);
+        test_points points = random_directions(4 + 3 * seed, seed);
         const double *const x = points.coordinates;
         double best = 1.0;
         for (size_t i = 0; i < points.count; ++i)
@@ -419,7 +419,7 @@ static void covering_agrees_with_all_triples(void **state) {
 /* One point, two points, and points of one hemisphere only. */
 static void covering_beyond_ninety_degrees(void **state) {
     (void)state;
-    own_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
+    test_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
     points.domain = AUR_DOMAIN_SPHERE;
     for (size_t i = 0; i < points.count; ++i) /* all within a cap of 60 degrees, the rim at z = 1/2 + 1/800 */
         set_direction(&points, i, 0.5 + 0.5 * points.coordinates[3 * i + 2],
@@ -437,7 +437,7 @@ static void covering_beyond_ninety_degrees(void **state) {
 }
 
 /* Sides of every cell, of `of` different counts at most, and the areas' sum. */
-static void check_sides(const own_points *points, size_t least, size_t most) {
+static void check_sides(const test_points *points, size_t least, size_t most) {
     const aur_points_view view = seen(points);
     aur_series *cells;
     assert_int_equal(aur_measure_series("voronoi", &view, NULL, &cells, NULL), AUR_OK);
@@ -451,7 +451,7 @@ static void check_sides(const own_points *points, size_t least, size_t most) {
     aur_series_destroy(cells);
 }
 
-static void rotate(own_points *points, double a, double b) {
+static void rotate(test_points *points, double a, double b) {
     for (size_t i = 0; i < points->count; ++i) {
         double *const p = points->coordinates + 3 * i;
         const double x = p[0] * cos(a) - p[1] * sin(a), y = p[0] * sin(a) + p[1] * cos(a);
@@ -467,7 +467,7 @@ static void rotate(own_points *points, double a, double b) {
 /* Each point twice, at one position or a few roundings apart: pairs share their cells. */
 static void doubled_points_share_their_cells(void **state) {
     (void)state;
-    own_points once = random_directions(40, 12), twice = sphere_points(80);
+    test_points once = random_directions(40, 12), twice = sphere_points(80);
     for (size_t shift = 0; shift < 3; ++shift) {
         for (size_t i = 0; i < 240; ++i)
             twice.coordinates[i] =
@@ -508,22 +508,22 @@ static void symmetric_sets_have_their_sides(void **state) {
     (void)state;
     for (uint64_t turn_index = 0; turn_index < 8; ++turn_index) {
         const double a = 0.37 * (double)turn_index, b = 0.71 * (double)turn_index;
-        own_points cube = sphere_points(8);
+        test_points cube = sphere_points(8);
         for (size_t i = 0; i < 24; ++i)
             cube.coordinates[i] = (i / 3 >> i % 3 & 1 ? 1.0 : -1.0) / sqrt(3.0);
         rotate(&cube, a, b);
         check_sides(&cube, 3, 3);
-        own_points six = octahedron();
+        test_points six = octahedron();
         rotate(&six, a, b);
         check_sides(&six, 4, 4);
         enum { RINGS = 9, RING = 16 };
-        own_points rings = sphere_points(RINGS * RING);
+        test_points rings = sphere_points(RINGS * RING);
         for (size_t i = 0; i < RINGS * RING; ++i)
             set_direction(&rings, i, cos(AUR_PI * ((double)(i / RING) + 0.5) / RINGS),
                           2.0 * AUR_PI * (double)(i % RING) / RING);
         rotate(&rings, a, b);
         check_sides(&rings, 3, 4);
-        own_points circle = sphere_points(7); /* cells are lunes */
+        test_points circle = sphere_points(7); /* cells are lunes */
         for (size_t i = 0; i < 7; ++i)
             set_direction(&circle, i, 0.0, 2.0 * AUR_PI * (double)(3 * i % 7) / 7.0);
         rotate(&circle, a, b);
@@ -533,7 +533,7 @@ static void symmetric_sets_have_their_sides(void **state) {
         release_points(&rings);
         release_points(&circle);
     }
-    own_points one = octahedron();
+    test_points one = octahedron();
     one.count = 1;
     check_sides(&one, 0, 0);
     one.count = 2; /* opposite each other */
@@ -547,7 +547,7 @@ static void sets_of_one_hemisphere_have_cells(void **state) {
     (void)state;
     enum { COUNT = 12, TRIALS = 200000 };
     for (uint64_t seed = 0; seed < 6; ++seed) {
-        own_points points = random_directions(COUNT, 40 + seed);
+        test_points points = random_directions(COUNT, 40 + seed);
         for (size_t i = 0; i < COUNT; ++i)
             set_direction(&points, i, 0.1 + 0.8 * fabs(points.coordinates[3 * i + 2]),
                           0.5 * (double)i + (double)seed);
@@ -586,10 +586,10 @@ static void smallest_distance_agrees_with_all_pairs(void **state) {
     (void)state;
     for (size_t dimension = 1; dimension < 5; ++dimension) {
         const size_t count = 200;
-        own_points points = {.domain = AUR_DOMAIN_CUBE,
-                             .count = count,
-                             .dimension = dimension,
-                             .coordinates = malloc(count * dimension * sizeof(double))};
+        test_points points = {.domain = AUR_DOMAIN_CUBE,
+                              .count = count,
+                              .dimension = dimension,
+                              .coordinates = malloc(count * dimension * sizeof(double))};
         for (size_t i = 0; i < count * dimension; ++i)
             points.coordinates[i] = aur_unit_double(aur_hash2(dimension, i));
         double best = 1e9;

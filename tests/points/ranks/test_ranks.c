@@ -36,7 +36,7 @@ static void carry(void *state, size_t to, size_t size, const void *data) {
     move(ends[rank][to], size, (void *)(uintptr_t)data, true);
 }
 
-static bool look(void *state, size_t *from, size_t *size) {
+static bool probe(void *state, size_t *from, size_t *size) {
     const size_t rank = *(const size_t *)state;
     for (size_t r = 0; r < RANKS; ++r) {
         struct pollfd end = {.fd = ends[rank][r], .events = POLLIN};
@@ -82,7 +82,7 @@ static void run(int (*body)(size_t rank), int leaves) {
             continue;
         alarm(SECONDS);
         aur_error error = {0};
-        const aur_transport transport = {rank, RANKS, &rank, carry, look, take, finish, end_all};
+        const aur_transport transport = {rank, RANKS, &rank, carry, probe, take, finish, end_all};
         if (aur_ranks_join_by(&transport, &error) != AUR_OK || aur_ranks_rank() != rank ||
             aur_ranks_count() != RANKS)
             _exit(98);
@@ -273,7 +273,7 @@ static int differ(size_t rank) {
     return rank == 3 ? 7 : 0;
 }
 
-static void a_rank_of_its_own_is_told(void **state) {
+static void a_separate_rank_is_reported(void **state) {
     (void)state;
     run(differ, 7);
 }
@@ -299,8 +299,8 @@ static void nobody_waits_for_a_tired_rank(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_say_the_same),        cmocka_unit_test(loops_are_shared),
-        cmocka_unit_test(a_failure_is_everybodys),   cmocka_unit_test(any_rank_may_stop),
-        cmocka_unit_test(a_rank_of_its_own_is_told), cmocka_unit_test(nobody_waits_for_a_tired_rank)};
+        cmocka_unit_test(ranks_say_the_same),          cmocka_unit_test(loops_are_shared),
+        cmocka_unit_test(a_failure_is_everybodys),     cmocka_unit_test(any_rank_may_stop),
+        cmocka_unit_test(a_separate_rank_is_reported), cmocka_unit_test(nobody_waits_for_a_tired_rank)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,9 +25,9 @@ static void squares_are_lifted_by_the_map(void **state) {
     static const aur_map maps[] = {AUR_MAP_LAMBERT, AUR_MAP_CONCENTRIC, AUR_MAP_AZIMUTHAL, AUR_MAP_POLAR};
     for (size_t m = 0; m < 4; ++m) {
         aur_pointset *square;
-        const aur_pointset_options wanted = {
-            .size = sizeof wanted, .count = COUNT, .scramble = AUR_SCRAMBLE_DIGIT, .seed = 9};
-        assert_int_equal(aur_pointset_create("sobol", &wanted, &square, NULL), AUR_OK);
+        const aur_pointset_options requested = {
+            .size = sizeof requested, .count = COUNT, .scramble = AUR_SCRAMBLE_DIGIT, .seed = 9};
+        assert_int_equal(aur_pointset_create("sobol", &requested, &square, NULL), AUR_OK);
         double uv[2 * COUNT];
         assert_int_equal(aur_pointset_points(square, 0, COUNT, 2 * COUNT, uv, NULL), AUR_OK);
         aur_pointset_destroy(square);

@@ -71,7 +71,7 @@ static void nearest_agrees_with_brute_force(void **state) {
         check_size(size, AUR_DOMAIN_HEMISPHERE, 40);
 }
 
-static void points_are_their_own_nearest(void **state) {
+static void points_are_nearest_to_themselves(void **state) {
     (void)state;
     static const size_t sizes[] = {1, 2, 3, 17, 1000, 4181};
     for (size_t s = 0; s < 6; ++s) {
@@ -140,7 +140,7 @@ static void kernels_agree(void **state) {
 /* The k nearest, in order, against sorting all by brute force. */
 static void neighbours_agree_with_brute_force(void **state) {
     (void)state;
-    static const size_t wanted[] = {1, 2, 6, 7, 33, 256};
+    static const size_t numbers[] = {1, 2, 6, 7, 33, 256};
     for (size_t size = 1; size < 3000; size += 1 + size / 6) {
         for (size_t domain = 0; domain < 2; ++domain) {
             const aur_fibonacci_set set = {size, domain == 0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE};
@@ -149,7 +149,7 @@ static void neighbours_agree_with_brute_force(void **state) {
                                                                 .count = size,
                                                                 .domain = set.domain});
             for (size_t w = 0; w < 6; ++w) {
-                const size_t k = wanted[w] < size ? wanted[w] : size;
+                const size_t k = numbers[w] < size ? numbers[w] : size;
                 for (uint64_t i = 0; i < 4; ++i) {
                     double q[3];
                     uint64_t found[256];
@@ -199,9 +199,12 @@ static void refuses_what_is_wrong(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_agrees_with_brute_force),    cmocka_unit_test(points_are_their_own_nearest),
-        cmocka_unit_test(nearest_agrees_with_its_neighbours), cmocka_unit_test(kernels_agree),
-        cmocka_unit_test(neighbours_agree_with_brute_force),  cmocka_unit_test(refuses_what_is_wrong),
+        cmocka_unit_test(nearest_agrees_with_brute_force),
+        cmocka_unit_test(points_are_nearest_to_themselves),
+        cmocka_unit_test(nearest_agrees_with_its_neighbours),
+        cmocka_unit_test(kernels_agree),
+        cmocka_unit_test(neighbours_agree_with_brute_force),
+        cmocka_unit_test(refuses_what_is_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

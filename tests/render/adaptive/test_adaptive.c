@@ -131,8 +131,8 @@ static void test_choice(void **state) {
     again.bias = report_of(a).bias_room;
     named.integrator = aur_adaptive_integrator(a);
     aur_adaptive *const b = create_fresh(&second, f, &named, &again);
-    aur_adaptive *const truth = adaptive(f, &paths, &target);
-    const aur_adaptive_report report = report_of(a), about_reference = report_of(truth);
+    aur_adaptive *const reference = adaptive(f, &paths, &target);
+    const aur_adaptive_report report = report_of(a), about_reference = report_of(reference);
     assert_same_image(a, b);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
     assert_non_null(strstr(aur_adaptive_integrator(a), ",max_depth=-1"));
@@ -150,12 +150,12 @@ static void test_choice(void **state) {
     assert_true(report.race_count > 2 && taken == 1);
     assert_true(report.candidate_rays > 0 && report_of(b).candidate_rays == 0);
     assert_true(report.statistics.rays == report_of(b).statistics.rays + report.candidate_rays);
-    assert_true(square_distance(a, truth) <= (report.error_high * report.error_high +
-                                              about_reference.error_high * about_reference.error_high) *
-                                                 report.mean * report.mean);
+    assert_true(square_distance(a, reference) <= (report.error_high * report.error_high +
+                                                  about_reference.error_high * about_reference.error_high) *
+                                                     report.mean * report.mean);
     aur_adaptive_destroy(a);
     aur_adaptive_destroy(b);
-    aur_adaptive_destroy(truth);
+    aur_adaptive_destroy(reference);
     aur_renderer_destroy(first.renderer);
     aur_renderer_destroy(second.renderer);
 }
@@ -167,7 +167,7 @@ typedef struct progress_record {
     double shares[4096], rays[4096];
 } progress_record;
 
-static int keep_progress(void *user, const char *what, uint64_t done, uint64_t total) {
+static int record_progress(void *user, const char *what, uint64_t done, uint64_t total) {
     progress_record *const record = user;
     if (record->adaptive == NULL) /* it is being prepared */
         return 0;
@@ -191,7 +191,7 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
     options.integrator = integrator;
     options.seed = seed;
     *record = (progress_record){.count = 0};
-    options.progress = (aur_progress){keep_progress, record};
+    options.progress = (aur_progress){record_progress, record};
     fixture fresh = {.scene = f->scene}; /* a renderer that has no photon maps */
     assert_int_equal(aur_renderer_create(f->scene, &fresh.renderer, NULL), AUR_OK);
     aur_adaptive *created = NULL;

@@ -91,11 +91,11 @@ static void test_interval(void **state) {
         for (uint64_t run = 0; run < RUNS; ++run) {
             fill(&cases[k], aur_hash2(run, k), &blocks, &replicas);
             const aur_bias bias = aur_replicas_bias(&replicas, 0, weighing, (const double(*)[3])values, 0.95);
-            double truth = cases[k].bias;
+            double expected = cases[k].bias;
             for (size_t r = 0; r < REPLICAS; ++r)
-                truth += of_map(&cases[k], aur_hash2(run, k), r) / REPLICAS;
-            truth *= truth;
-            missed += bias.low > truth * (1.0 + 1e-6) || bias.high < truth * (1.0 - 1e-6);
+                expected += of_map(&cases[k], aur_hash2(run, k), r) / REPLICAS;
+            expected *= expected;
+            missed += bias.low > expected * (1.0 + 1e-6) || bias.high < expected * (1.0 - 1e-6);
             mean += bias.estimate / RUNS;
             high += bias.high / RUNS;
         }

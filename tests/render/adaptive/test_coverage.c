@@ -24,19 +24,19 @@ static void errors_of(aur_renderer *renderer, uint64_t seed, aur_adaptive_report
     target.rounds = 2;
     target.confidence = 0.5;
     aur_adaptive *adaptive;
-    aur_image *image, *truth;
+    aur_image *image, *reference;
     assert_int_equal(aur_adaptive_create(renderer, &render, &target, &adaptive, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_run(adaptive, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_develop(adaptive, NULL, &image, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_get_report(adaptive, report, NULL), AUR_OK);
-    assert_int_equal(aur_image_create(SIDE, SIDE, 3, &truth, NULL), AUR_OK);
+    assert_int_equal(aur_image_create(SIDE, SIDE, 3, &reference, NULL), AUR_OK);
     for (size_t i = 0; i < 3 * SIDE * SIDE; ++i)
-        aur_image_data(truth)[i] = 1.0f;
+        aur_image_data(reference)[i] = 1.0f;
     for (size_t c = 0; c < 3; ++c)
-        aur_image_name_channel(truth, c, (const char *const[]){"R", "G", "B"}[c], NULL);
+        aur_image_name_channel(reference, c, (const char *const[]){"R", "G", "B"}[c], NULL);
     for (int m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
-        assert_int_equal(aur_image_error(truth, image, (aur_error_measure)m, &errors[m], NULL), AUR_OK);
-    aur_image_destroy(truth);
+        assert_int_equal(aur_image_error(reference, image, (aur_error_measure)m, &errors[m], NULL), AUR_OK);
+    aur_image_destroy(reference);
     aur_image_destroy(image);
     aur_adaptive_destroy(adaptive);
 }

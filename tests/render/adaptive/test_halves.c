@@ -93,19 +93,19 @@ static void test_bias_is_found(void **state) {
         const aur_error_figures figures = compare(&f, 0.2f, (aur_error_measure)m);
         aur_render_options options = small();
         options.samples_per_pixel = 1024;
-        aur_image *truth, *flat;
+        aur_image *reference, *flat;
         double error;
-        assert_int_equal(aur_renderer_render(f.renderer, &options, &truth, NULL, NULL), AUR_OK);
+        assert_int_equal(aur_renderer_render(f.renderer, &options, &reference, NULL, NULL), AUR_OK);
         assert_int_equal(aur_image_create(SIDE, SIDE, 3, &flat, NULL), AUR_OK);
         for (size_t i = 0; i < VALUES; ++i)
             aur_image_data(flat)[i] = 0.2f;
-        assert_int_equal(aur_image_error(truth, flat, (aur_error_measure)m, &error, NULL), AUR_OK);
+        assert_int_equal(aur_image_error(reference, flat, (aur_error_measure)m, &error, NULL), AUR_OK);
         print_message("%d: %.4f between %.4f and %.4f, true %.4f\n", m, figures.error, figures.low,
                       figures.high, error);
         assert_true(figures.low < error && error < figures.high);
         if (m != AUR_ERROR_MEASURE_RELATIVE) /* dominated by few dark pixels */
             assert_near(figures.error, error, 0.1 * error);
-        aur_image_destroy(truth);
+        aur_image_destroy(reference);
         aur_image_destroy(flat);
         end(&f);
     }

@@ -36,7 +36,7 @@ static void end(fixture *f) {
 
 /* The variances that distribute a replica's samples come from the other replicas: an additional sample
  * changes its own only by rounding, and those of all others. */
-static void test_own_values_do_not_count(void **state) {
+static void test_values_of_the_replica_do_not_count(void **state) {
     (void)state;
     fixture f;
     begin(&f, 1);
@@ -156,7 +156,7 @@ static void test_neighbours(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_values_do_not_count),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values_of_the_replica_do_not_count),
                                        cmocka_unit_test(test_tiles_have_their_means),
                                        cmocka_unit_test(test_neighbours)};
     return cmocka_run_group_tests(tests, NULL, NULL);

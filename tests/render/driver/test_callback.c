@@ -15,7 +15,7 @@ enum { SIDE = 16, SAMPLES = 128 };
 
 typedef struct preview {
     aur_renderer *renderer;
-    const aur_image *truth;
+    const aur_image *reference;
     struct preview *inner; /* rendered in its callback */
     int calls, most;       /* previews; later calls render none */
 } preview;
@@ -50,7 +50,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         return 0;
     ++p->calls;
     aur_image *const image = render(p->renderer, "path", SAMPLES, (aur_progress){show, p->inner});
-    assert_equal_images(image, p->truth);
+    assert_equal_images(image, p->reference);
     aur_image_destroy(image);
     return 0;
 }
@@ -58,7 +58,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
 typedef struct fixture {
     aur_scene *scene;
     aur_renderer *outer, *previews;
-    aur_image *truth;
+    aur_image *reference;
 } fixture;
 
 static fixture prepare(void) {
@@ -66,13 +66,13 @@ static fixture prepare(void) {
     assert_int_equal(aur_scene_load(scene_path, NULL, &f.scene, NULL), AUR_OK);
     assert_int_equal(aur_renderer_create(f.scene, &f.outer, NULL), AUR_OK);
     assert_int_equal(aur_renderer_create(f.scene, &f.previews, NULL), AUR_OK);
-    f.truth = render(f.previews, "path", SAMPLES, (aur_progress){0});
+    f.reference = render(f.previews, "path", SAMPLES, (aur_progress){0});
     alarm(120);
     return f;
 }
 
 static void finish(fixture *f) {
-    aur_image_destroy(f->truth);
+    aur_image_destroy(f->reference);
     aur_renderer_destroy(f->previews);
     aur_renderer_destroy(f->outer);
     aur_scene_destroy(f->scene);
@@ -91,8 +91,8 @@ static void renders_previews(void **state) {
                                               "aov:aovs=d:depth"};
     fixture f = prepare();
     for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i) {
-        preview inner = {.renderer = f.previews, .truth = f.truth, .most = 1},
-                shown = {.renderer = f.previews, .truth = f.truth, .inner = &inner, .most = 2};
+        preview inner = {.renderer = f.previews, .reference = f.reference, .most = 1},
+                shown = {.renderer = f.previews, .reference = f.reference, .inner = &inner, .most = 2};
         aur_image *const alone = render(f.outer, integrators[i], SAMPLES, (aur_progress){0});
         aur_renderer *again; /* which has nothing prepared */
         assert_int_equal(aur_renderer_create(f.scene, &again, NULL), AUR_OK);
@@ -110,7 +110,7 @@ static void renders_previews(void **state) {
 static void renders_previews_of_an_error(void **state) {
     (void)state;
     fixture f = prepare();
-    preview shown = {.renderer = f.previews, .truth = f.truth, .most = 2};
+    preview shown = {.renderer = f.previews, .reference = f.reference, .most = 2};
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;

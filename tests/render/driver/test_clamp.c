@@ -50,7 +50,7 @@ static void takes_no_more_than_it_says(void **state) {
             const double limit = 0.25;
             aur_image *const all = render(scene, integrators[i][0], 0.0, samples);
             aur_image *const limited = render(scene, integrators[i][0], limit, samples);
-            aur_image *const straight = render(scene, integrators[i][1], 0.0, samples);
+            aur_image *const unscattered = render(scene, integrators[i][1], 0.0, samples);
             assert_int_equal(aur_image_channel_count(all), 3);
             assert_int_equal(aur_image_channel_count(limited), 6);
             assert_string_equal(aur_image_channel_name(limited, 3), "clamped.R");
@@ -62,12 +62,12 @@ static void takes_no_more_than_it_says(void **state) {
                 assert_true(pixel[3] >= 0.0f);
                 assert_near((double)pixel[0] + (double)pixel[3], whole, 1e-5 * whole);
                 assert_true((double)pixel[0] <=
-                            (double)aur_image_data(straight)[k] * (1.0 + 1e-5) + limit * (1.0 + 1e-5));
+                            (double)aur_image_data(unscattered)[k] * (1.0 + 1e-5) + limit * (1.0 + 1e-5));
             }
             assert_true(taken > 0.0);
             aur_image_destroy(all);
             aur_image_destroy(limited);
-            aur_image_destroy(straight);
+            aur_image_destroy(unscattered);
         }
     aur_scene_destroy(scene);
 }
@@ -122,7 +122,7 @@ static void refuses(void **state) {
 static void has_an_interval(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
-    aur_image *const truth = render(scene, "path", 0.05, 4096);
+    aur_image *const reference = render(scene, "path", 0.05, 4096);
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     size_t missed = 0;
@@ -148,7 +148,7 @@ static void has_an_interval(void **state) {
         assert_int_equal(aur_adaptive_develop(adaptive, false, &image, NULL), AUR_OK);
         assert_int_equal(aur_image_channel_count(image), 6);
         assert_string_equal(aur_image_channel_name(image, 3), "clamped.R");
-        assert_int_equal(aur_image_error(truth, image, target.measure, &error, NULL), AUR_OK);
+        assert_int_equal(aur_image_error(reference, image, target.measure, &error, NULL), AUR_OK);
         print_message("%g in [%g, %g]\n", error, report.error_low, report.error_high);
         assert_true(report.error_high <= target.error);
         missed += error < report.error_low || error > report.error_high;
@@ -156,7 +156,7 @@ static void has_an_interval(void **state) {
         aur_adaptive_destroy(adaptive);
     }
     assert_true(missed <= 1); /* at 95 %, more in one of 44 */
-    aur_image_destroy(truth);
+    aur_image_destroy(reference);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
 }

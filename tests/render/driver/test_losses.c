@@ -5,7 +5,7 @@
 
 enum { SIDE = 8, SAMPLES = 16 };
 
-static void keep_message(void *user, const char *message) {
+static void store_message(void *user, const char *message) {
     snprintf(user, 512, "%s", message);
 }
 
@@ -20,7 +20,7 @@ static aur_render_statistics statistics_of(const char *integrator, const char *b
     options.samples_per_pixel = SAMPLES;
     options.integrator = integrator;
     options.filter = "box";
-    options.warnings = (aur_warnings){keep_message, said};
+    options.warnings = (aur_warnings){store_message, said};
     said[0] = '\0';
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     assert_int_equal(aur_renderer_render(renderer, &options, &image, &statistics, NULL), AUR_OK);

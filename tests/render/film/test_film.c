@@ -34,7 +34,7 @@ static aur_render *start(aur_renderer *renderer, const aur_render_options *optio
     return render;
 }
 
-static aur_image *picture(const aur_film *film) {
+static aur_image *develop(const aur_film *film) {
     aur_image *image = NULL;
     assert_int_equal(aur_film_develop(film, &image, NULL), AUR_OK);
     return image;
@@ -109,10 +109,10 @@ static void steps_are_one_render(void **state) {
         assert_int_equal(counted[0].samples, 45 * 37 * 8);
         assert_int_equal(counted[1].samples, counted[0].samples);
         assert_int_equal(counted[1].rays, counted[0].rays);
-        assert_same(picture(aur_render_film(first)), picture(aur_render_film(second)));
+        assert_same(develop(aur_render_film(first)), develop(aur_render_film(second)));
         /* finalgather sums its pixels' samples step by step, so its bits depend on the steps. */
         if (i < 3)
-            assert_same(whole, picture(aur_render_film(second)));
+            assert_same(whole, develop(aur_render_film(second)));
         else
             aur_image_destroy(whole);
         aur_film_destroy(half);
@@ -141,7 +141,7 @@ static void parts_are_merged(void **state) {
         aur_render_destroy(part);
     }
     assert_int_equal(aur_render_samples(whole), 8);
-    assert_same(expected, picture(aur_render_film(whole)));
+    assert_same(expected, develop(aur_render_film(whole)));
 
     aur_error error = {0};
     options.crop_x0 = 3;
@@ -205,7 +205,7 @@ static void a_stopped_step_is_preserved_and_continued(void **state) {
     aur_render_cancel(render);
     assert_int_equal(aur_render_step(render, 0, NULL), AUR_ERROR_CANCELLED);
     assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
-    assert_same(whole, picture(aur_render_film(render)));
+    assert_same(whole, develop(aur_render_film(render)));
     aur_render_destroy(render);
 
     tiles = 4;
@@ -247,7 +247,7 @@ static void a_tile_is_stopped_within(void **state) {
         aur_render_statistics counted = {.size = sizeof counted};
         assert_int_equal(aur_render_get_statistics(render, &counted, NULL), AUR_OK);
         assert_int_equal(counted.samples, 16 * 16 * 512);
-        assert_same(whole, picture(aur_render_film(render)));
+        assert_same(whole, develop(aur_render_film(render)));
         aur_render_destroy(render);
     }
 }
@@ -273,7 +273,7 @@ static void the_error_is_that_of_independent_samples(void **state) {
 
     options.samples_per_pixel = 512;
     options.seed = 1;
-    aur_image *reference = NULL, *const image = picture(aur_render_film(render));
+    aur_image *reference = NULL, *const image = develop(aur_render_film(render));
     double measured[4];
     assert_int_equal(aur_renderer_render(f->renderer, &options, &reference, NULL, NULL), AUR_OK);
     assert_int_equal(aur_image_compare(reference, image, AUR_IMAGE_RMSE, measured, NULL), AUR_OK);
@@ -296,7 +296,7 @@ static void the_error_is_that_of_the_steps(void **state) {
     static double sums[PIXELS], squares[PIXELS], before[PIXELS];
     for (size_t n = 1; n <= STEPS; ++n) {
         assert_int_equal(aur_render_step(render, 1, NULL), AUR_OK);
-        aur_image *const image = picture(aur_render_film(render));
+        aur_image *const image = develop(aur_render_film(render));
         for (size_t i = 0; i < PIXELS; ++i) {
             const double all = (double)n * (double)image->data[image->channel_count * i], x = all - before[i];
             before[i] = all;

@@ -27,7 +27,7 @@ static aur_render *start(aur_renderer *renderer, const char *integrator, size_t 
     return render;
 }
 
-static aur_image *picture(const aur_render *render) {
+static aur_image *develop(const aur_render *render) {
     aur_image *image = NULL;
     assert_int_equal(aur_film_develop(aur_render_film(render), &image, NULL), AUR_OK);
     return image;
@@ -44,18 +44,18 @@ static void compare(const char *integrator, aur_renderer *renderer, aur_image *c
         assert_int_equal(aur_render_step_pixels(render, PIXELS, targets, NULL), AUR_OK);
     }
     const aur_film *const film = aur_render_film(render);
-    aur_image *const image = picture(render);
+    aur_image *const image = develop(render);
     uint64_t samples = 0;
     for (size_t i = 0; i < PIXELS; ++i) {
-        uint32_t wanted = (uint32_t)(aur_hash2(1, i) % MOST);
-        if (in_two_steps && aur_hash2(0, i) % MOST > wanted)
-            wanted = (uint32_t)(aur_hash2(0, i) % MOST);
-        assert_int_equal(film->given[i], wanted);
-        assert_int_equal(film->counts[i], wanted);
-        samples += wanted;
+        uint32_t expected = (uint32_t)(aur_hash2(1, i) % MOST);
+        if (in_two_steps && aur_hash2(0, i) % MOST > expected)
+            expected = (uint32_t)(aur_hash2(0, i) % MOST);
+        assert_int_equal(film->given[i], expected);
+        assert_int_equal(film->counts[i], expected);
+        samples += expected;
         const size_t channels = image->channel_count;
-        if (wanted > 0)
-            assert_memory_equal(&image->data[i * channels], &even[wanted - 1]->data[i * channels],
+        if (expected > 0)
+            assert_memory_equal(&image->data[i * channels], &even[expected - 1]->data[i * channels],
                                 channels * sizeof *image->data);
     }
     aur_render_statistics statistics = {.size = sizeof statistics};
@@ -86,7 +86,7 @@ static void pixels_are_identical_to_even_images(void **state) {
         for (uint32_t n = 1; n <= MOST; ++n) {
             aur_render *const render = start(renderer, rows[r].integrator, 1);
             assert_int_equal(aur_render_step(render, n, NULL), AUR_OK);
-            even[n - 1] = picture(render);
+            even[n - 1] = develop(render);
             aur_render_destroy(render);
         }
         compare(rows[r].integrator, renderer, even, 1, false);

@@ -58,7 +58,7 @@ static aur_render *start(const fixture *f, const aur_render_options *options) {
     return render;
 }
 
-static aur_image *picture(const aur_render *render) {
+static aur_image *develop(const aur_render *render) {
     aur_image *image = NULL;
     assert_int_equal(aur_film_develop(aur_render_film(render), &image, NULL), AUR_OK);
     return image;
@@ -67,7 +67,7 @@ static aur_image *picture(const aur_render *render) {
 static aur_image *render_all(const fixture *f, const aur_render_options *options) {
     aur_render *const render = start(f, options);
     assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
-    aur_image *const image = picture(render);
+    aur_image *const image = develop(render);
     aur_render_destroy(render);
     return image;
 }
@@ -121,7 +121,7 @@ static void pixels_are_the_weighed_means_of_all_samples(void **state) {
         aur_render *const render = start(f, &options);
         take_samples(f, render);
         assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
-        aur_image *const image = picture(render);
+        aur_image *const image = develop(render);
         for (size_t pixel = 0; pixel < PIXELS; ++pixel) {
             double sums[3] = {0}, weight = 0.0, sizes = 0.0, most = 0.0;
             for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
@@ -222,7 +222,7 @@ static void assert_goes_on(const fixture *f, const aur_render_options *options, 
     assert_int_equal(aur_render_merge(second, half, NULL), AUR_OK);
     assert_int_equal(aur_render_samples(second), 1);
     assert_int_equal(aur_render_step(second, 0, NULL), AUR_OK);
-    assert_same(whole, picture(second));
+    assert_same(whole, develop(second));
     aur_film_destroy(half);
     aur_render_destroy(first);
     aur_render_destroy(second);
@@ -241,7 +241,7 @@ static void assert_is_of_parts(const fixture *f, const aur_render_options *optio
         aur_render_destroy(render);
     }
     assert_int_equal(aur_render_samples(all), options->samples_per_pixel);
-    assert_same(whole, picture(all));
+    assert_same(whole, develop(all));
     aur_render_destroy(all);
 }
 
@@ -281,7 +281,7 @@ static void cells_have_equal_weights_for_any_number_of_samples(void **state) {
         for (size_t i = 0; i < PIXELS; ++i)
             targets[i] = r == 0 ? 256 : i % WIDTH / 4 % 2 == 0 ? 16 : 256;
         assert_int_equal(aur_render_step_pixels(render, PIXELS, targets, NULL), AUR_OK);
-        images[r] = picture(render);
+        images[r] = develop(render);
         aur_render_destroy(render);
     }
     double sum = 0.0, square = 0.0;

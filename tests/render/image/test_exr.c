@@ -153,10 +153,10 @@ static void test_what_cannot_be_read_says_so(void **state) {
     aur_error error;
 
     /* A compression that OpenEXR 3.1's C library lacks: DWAA, named in the header of another file. */
-    aur_image *const picture = random_image(8, 8, 3);
-    memset(picture->data, 0, 8 * 8 * 3 * sizeof(float)); /* so that chunks are compressed */
-    write_image(scratch(0, "dwaa.exr"), picture, NULL);
-    aur_image_destroy(picture);
+    aur_image *const written = random_image(8, 8, 3);
+    memset(written->data, 0, 8 * 8 * 3 * sizeof(float)); /* so that chunks are compressed */
+    write_image(scratch(0, "dwaa.exr"), written, NULL);
+    aur_image_destroy(written);
     size_t size;
     unsigned char *const bytes = read_bytes(scratch(0, "dwaa.exr"), &size);
     remove(scratch(0, "dwaa.exr"));
@@ -175,9 +175,9 @@ static void test_what_cannot_be_read_says_so(void **state) {
 /* The header states 10,000,000 x 8, which is still one chunk, and the data are those of 8 x 8. */
 static void test_header_that_lies(void **state) {
     (void)state;
-    aur_image *const picture = random_image(8, 8, 3);
-    write_image(scratch(0, "lie.exr"), picture, NULL);
-    aur_image_destroy(picture);
+    aur_image *const written = random_image(8, 8, 3);
+    write_image(scratch(0, "lie.exr"), written, NULL);
+    aur_image_destroy(written);
     size_t size;
     unsigned char *const bytes = read_bytes(scratch(0, "lie.exr"), &size);
     remove(scratch(0, "lie.exr"));
@@ -244,16 +244,16 @@ static void test_shared_images(void **state) {
     static const struct {
         const char *path;
         size_t width, height;
-    } pictures[] = {{AUR_SOURCE_DIR "/../shared/scenes/cornell-box/TungstenRender.exr", 1024, 1024},
-                    {AUR_SOURCE_DIR "/../shared/scenes/veach-mis/TungstenRender.exr", 1280, 720}};
+    } files[] = {{AUR_SOURCE_DIR "/../shared/scenes/cornell-box/TungstenRender.exr", 1024, 1024},
+                 {AUR_SOURCE_DIR "/../shared/scenes/veach-mis/TungstenRender.exr", 1280, 720}};
     for (size_t i = 0; i < 2; ++i) {
-        if (access(pictures[i].path, R_OK) != 0) {
-            print_message("skipped: %s is not there\n", pictures[i].path);
+        if (access(files[i].path, R_OK) != 0) {
+            print_message("skipped: %s is not there\n", files[i].path);
             continue;
         }
-        aur_image *const image = read_image(pictures[i].path);
-        assert_int_equal(image->width, pictures[i].width);
-        assert_int_equal(image->height, pictures[i].height);
+        aur_image *const image = read_image(files[i].path);
+        assert_int_equal(image->width, files[i].width);
+        assert_int_equal(image->height, files[i].height);
         assert_int_equal(image->channel_count, 3);
         assert_string_equal(image->channel_names[0], "R");
         double mean[4];

@@ -87,9 +87,9 @@ static void test_published_program(void **state) {
  * the rest. */
 static void test_uniform_images(void **state) {
     (void)state;
-    aur_image *const pictures[] = {pattern_image(9, 7, black), pattern_image(9, 7, white),
+    aur_image *const patterns[] = {pattern_image(9, 7, black), pattern_image(9, 7, white),
                                    pattern_image(9, 7, green), pattern_image(9, 7, blue)};
-    assert_near(flip_of(pictures[2], pictures[3]), 1.0, 1e-6);
+    assert_near(flip_of(patterns[2], patterns[3]), 1.0, 1e-6);
     /* CIELAB (D65, 2 degrees) of sRGB green and blue: (87.735, -86.183, 83.180), (32.302, 79.196, -107.855);
      * with the Hunt effect a and b are multiplied by L / 100. */
     const double lightness = 87.7347 - 32.3026;
@@ -98,9 +98,9 @@ static void test_uniform_images(void **state) {
     const double largest = pow(lightness + hypot(a, b), 0.7);
     const double knee = 0.4 * largest;
     const double expected = 0.95 + (pow(100.0, 0.7) - knee) / (largest - knee) * 0.05;
-    assert_near(flip_of(pictures[0], pictures[1]), expected, 2e-5);
+    assert_near(flip_of(patterns[0], patterns[1]), expected, 2e-5);
     for (size_t i = 0; i < 4; ++i)
-        aur_image_destroy(pictures[i]);
+        aur_image_destroy(patterns[i]);
 }
 
 /* Radiance beyond the screen looks like the screen's white; a single pixel has filters larger than itself. */

@@ -102,12 +102,12 @@ static void finds_colors_by_name(void **state) {
 static void takes_chosen_channels(void **state) {
     (void)state;
     aur_image *const image = named((const char *const[]){"N.X", "N.Y", "N.Z"}, "rgb", 2);
-    static const char *const wanted[] = {"N.Z", "N.X", "N.Y"};
+    static const char *const chosen[] = {"N.Z", "N.X", "N.Y"};
     for (size_t count = 1; count <= 3; ++count) {
         aur_image *some;
         aur_error error;
         size_t channels[3] = {9, 9, 9};
-        assert_success(aur_image_select(image, count, wanted, &some, &error), &error);
+        assert_success(aur_image_select(image, count, chosen, &some, &error), &error);
         assert_int_equal(aur_image_color_channels(some, channels), count != 2);
         for (size_t k = 0; k < 3 && count != 2; ++k)
             assert_int_equal(channels[k], count == 1 ? 0 : k);

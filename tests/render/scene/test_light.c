@@ -181,7 +181,7 @@ static void draws_on_curved_lights(void **state) {
 
 /* From points of a sphere that faces inwards, which rounding puts to either side, all of it is drawn by area.
  */
-static void draws_from_a_sphere_s_own_points(void **state) {
+static void draws_from_points_on_a_sphere(void **state) {
     (void)state;
     aur_scene *const scene =
         must_load_body("<shape type='sphere'><boolean name='flip_normals' value='true'/><float name='radius' "
@@ -528,7 +528,7 @@ int main(void) {
         cmocka_unit_test(particles_of_every_light),
         cmocka_unit_test(draws_for_normals),
         cmocka_unit_test(draws_on_curved_lights),
-        cmocka_unit_test(draws_from_a_sphere_s_own_points),
+        cmocka_unit_test(draws_from_points_on_a_sphere),
         cmocka_unit_test(particles_carry_the_power),
         cmocka_unit_test(emits_on_one_side),
         cmocka_unit_test(lights_without_area_give_no_light),

@@ -108,7 +108,7 @@ static void probabilities_are_those_of_choosing(void **state) {
 }
 
 /* A light at the reference point, lights at one point, and far from the origin. */
-static void odd_places(void **state) {
+static void odd_transforms(void **state) {
     (void)state;
     enum { COUNT = 40 };
     aur_light_bounds bounds[COUNT];
@@ -372,7 +372,7 @@ static void lanes_are_single_samples(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probabilities_are_those_of_choosing),
-        cmocka_unit_test(odd_places),
+        cmocka_unit_test(odd_transforms),
         cmocka_unit_test(same_light_as_each_alone),
         cmocka_unit_test(weights_count),
         cmocka_unit_test(one_light_needs_no_tree),

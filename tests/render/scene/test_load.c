@@ -200,7 +200,7 @@ static void finds_files_next_to_the_scene(void **state) {
     }
 }
 
-static void keep_warning(void *user, const char *message) {
+static void store_warning(void *user, const char *message) {
     char *const text = user;
     strncat(text, message, 4000 - strlen(text));
     strncat(text, "\n", 4000 - strlen(text));
@@ -209,7 +209,7 @@ static void keep_warning(void *user, const char *message) {
 static void reads_old_versions(void **state) {
     (void)state;
     char warnings[4096] = "";
-    const aur_scene_options options = {.size = sizeof options, .warnings = {keep_warning, warnings}};
+    const aur_scene_options options = {.size = sizeof options, .warnings = {store_warning, warnings}};
     aur_scene *scene;
     aur_error error;
     assert_int_equal(

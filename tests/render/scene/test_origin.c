@@ -306,7 +306,7 @@ static void near_scenes_stay(void **state) {
     }
 }
 
-static void keep(void *said, const char *message) {
+static void record(void *said, const char *message) {
     snprintf(said, 1024, "%s", message);
 }
 
@@ -341,7 +341,7 @@ static void warns_of_what_is_not_exact(void **state) {
     free(town);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         char said[1024] = "";
-        const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+        const aur_scene_options options = {.size = sizeof options, .warnings = {record, said}};
         aur_scene *scene;
         assert_int_equal(load_body(rows[i].body, &options, &scene, NULL), AUR_OK);
         if (rows[i].said[0] == '\0')

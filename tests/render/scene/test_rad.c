@@ -175,7 +175,7 @@ static void glass_by_its_series(void **state) {
     aur_scene_destroy(scene);
 }
 
-static void keep(void *user, const char *message) {
+static void record(void *user, const char *message) {
     char *const text = user;
     strncat(text, message, 1023 - strlen(text));
     strncat(text, "\n", 1023 - strlen(text));
@@ -299,7 +299,7 @@ static void takes_means_of_matrices(void **state) {
     static const char text[] = "void BSDF w 6 0 two.xml 0 0 1 . 0 0\nw sphere s 0 0 4 0 0 0 1\n"
                                "void aBSDF v 5 none.xml 0 0 1 . 0 0\n";
     char said[1024] = "";
-    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}, .diffuse = true};
+    const aur_scene_options options = {.size = sizeof options, .warnings = {record, said}, .diffuse = true};
     aur_scene *scene = NULL;
     aur_error error = {0};
     if (aur_scene_load_memory("room.rad", sizeof text - 1, text, &options, &scene, &error) != AUR_OK)
@@ -325,7 +325,7 @@ static void takes_diffuse_parts(void **state) {
         "void mixfunc m 4 void p a b.cal 0 0\np sphere s 0 0 4 0 0 0 1\nt sphere s 0 0 4 5 0 0 1\n"
         "none sphere s 0 0 4 9 0 0 1\nm sphere s 0 0 4 5 5 0 1\nvoid sphere s 0 0 4 0 0 0 9\n";
     char said[1024] = "";
-    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}, .diffuse = true};
+    const aur_scene_options options = {.size = sizeof options, .warnings = {record, said}, .diffuse = true};
     aur_scene *scene = NULL;
     aur_error error = {0};
     if (aur_scene_load_memory("room.rad", sizeof text - 1, text, &options, &scene, &error) != AUR_OK)
@@ -465,7 +465,7 @@ static void says_all_that_is_left_out(void **state) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         char said[1024] = "";
-        const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+        const aur_scene_options options = {.size = sizeof options, .warnings = {record, said}};
         aur_scene *scene = NULL;
         aur_error error = {0};
         assert_int_equal(
@@ -507,7 +507,7 @@ static void leaves_out_what_is_no_surface(void **state) {
                                          "lamp polygon p 0 0 9 0 0 3 1 0 3 0 1 3\n"
                                          "lamp polygon p 0 0 9 0 0 4 1 0 4 2 0 4\n";
     char said[1024] = "";
-    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+    const aur_scene_options options = {.size = sizeof options, .warnings = {record, said}};
     aur_scene *scene = NULL;
     assert_int_equal(aur_scene_load_memory("room.rad", strlen(text), text, &options, &scene, NULL), AUR_OK);
     assert_string_equal(said,

@@ -56,11 +56,11 @@ static void makes_colours_by_type(void **state) {
         "name='values' value='1, 2, 3'/></spectrum>",
         "<spectrum name='radiance' filename='s.spd'/>"};
     write_text("s.spd", "# a lamp\n400 1\n550, 2 # middle\n\n700 3");
-    const aur_vector wanted = environment(pairs);
-    assert_true(wanted.x > wanted.y && wanted.y > wanted.z && wanted.z > 0.0f);
+    const aur_vector expected = environment(pairs);
+    assert_true(expected.x > expected.y && expected.y > expected.z && expected.z > 0.0f);
     for (size_t i = 0; i < sizeof same / sizeof same[0]; ++i) {
         const aur_vector got = environment(same[i]);
-        assert_memory_equal(&got, &wanted, sizeof got);
+        assert_memory_equal(&got, &expected, sizeof got);
     }
     const aur_vector grey =
         environment("<spectrum name='radiance' type='d65'><float name='scale' value='2'/></spectrum>");

@@ -43,7 +43,7 @@ typedef struct messages {
     char text[1024];
 } messages;
 
-static inline void keep_message(void *user, const char *message) {
+static inline void store_message(void *user, const char *message) {
     messages *const received = user;
     ++received->count;
     snprintf(received->text, sizeof received->text, "%s", message);

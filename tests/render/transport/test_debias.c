@@ -123,7 +123,7 @@ static void agrees_with_paths(void **state) {
     }
 }
 
-enum { PICTURE = 24 };
+enum { IMAGE = 24 };
 
 static aur_image *render_image(aur_renderer *renderer, const char *form, const char *keys) {
     char integrator[512];
@@ -132,7 +132,7 @@ static aur_image *render_image(aur_renderer *renderer, const char *form, const c
     aur_render_options_init(&options, NULL);
     options.integrator = integrator;
     options.gather = &lab_finalgather;
-    options.width = options.height = PICTURE;
+    options.width = options.height = IMAGE;
     options.samples_per_pixel = 4;
     options.seed = 5;
     aur_image *image = NULL;
@@ -162,7 +162,7 @@ static void correction_is_the_difference(void **state) {
         aur_image *const whole = render_image(renderer, cases[k].form, whole_keys);
         aur_image *const single = render_image(renderer, cases[k].form, single_keys);
         double most = 0.0, off = 0.0, least = 0.0;
-        for (size_t v = 0; v < 3 * PICTURE * PICTURE; ++v) {
+        for (size_t v = 0; v < 3 * IMAGE * IMAGE; ++v) {
             const double biased = (double)aur_image_data(plain)[v], added = (double)aur_image_data(single)[v];
             most = fmax(most, fabs(biased) + fabs(added));
             least = fmin(least, added);

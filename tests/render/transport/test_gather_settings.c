@@ -217,8 +217,8 @@ static aur_result same_set(const aur_gather_settings *options, size_t base, size
     return AUR_OK;
 }
 
-static aur_result keep(const aur_gather_settings *options, size_t base, const aur_gather_directions *pattern,
-                       void **state, aur_error *error) {
+static aur_result store(const aur_gather_settings *options, size_t base, const aur_gather_directions *pattern,
+                        void **state, aur_error *error) {
     (void)options, (void)base, (void)error;
     aur_gather_directions *const stored = malloc(sizeof *stored);
     assert_non_null(stored);
@@ -249,7 +249,7 @@ static void gather_plainly(const void *state, uint32_t lanes, aur_gather_sweep *
 static void caller_gathers(void **state) {
     (void)state;
     static const aur_gather_method method = {
-        .begin = always, .choose = same_set, .prepare = keep, .release = free, .gather = gather_plainly};
+        .begin = always, .choose = same_set, .prepare = store, .release = free, .gather = gather_plainly};
     aur_gather_integrator copy = lab_finalgather;
     copy.row.name = "own";
     copy.method = &method;

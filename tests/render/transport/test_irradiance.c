@@ -53,7 +53,7 @@ static void photons_bring_all_the_power(void **state) {
     aur_scene_destroy(scene);
 }
 
-static void keep_last(void *user, const char *message) {
+static void store_last(void *user, const char *message) {
     snprintf(user, 256, "%s", message);
 }
 
@@ -68,7 +68,7 @@ static void endless_paths_are_reported(void **state) {
     for (size_t i = 0; i < 2; ++i) {
         char message[256] = "";
         const aur_photon_options options = {
-            .count = 4000, .max_edges = SIZE_MAX, .seed = 7, .warnings = {keep_last, message}};
+            .count = 4000, .max_edges = SIZE_MAX, .seed = 7, .warnings = {store_last, message}};
         const aur_scene *const scene = i == 0 ? white : grey;
         aur_elements elements;
         assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);

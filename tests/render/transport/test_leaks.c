@@ -32,7 +32,7 @@ static aur_vector direction(size_t index) {
     return (aur_vector){(float)(r * cos(phi)), (float)(r * sin(phi)), (float)z};
 }
 
-static survey look_around(const aur_scene *scene, const aur_irradiance_map *map) {
+static survey probe_around(const aur_scene *scene, const aur_irradiance_map *map) {
     enum { RAYS = 40000 };
     survey found = {0};
     for (size_t i = 0; i < 2 * RAYS; ++i) {
@@ -69,7 +69,7 @@ static survey survey_of(const aur_scene *scene, size_t photons) {
     aur_error error = {0};
     if (aur_irradiance_map_create(scene, &options, &map, &error) != AUR_OK)
         fail_msg("%s", error.message);
-    const survey found = look_around(scene, map);
+    const survey found = probe_around(scene, map);
     print_message("%zu photons: the dark half has %.3f %% of the lit one's light\n", photons,
                   100.0 * found.dark / found.lit);
     aur_irradiance_map_destroy(map);

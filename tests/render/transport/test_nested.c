@@ -37,13 +37,13 @@ enum { CAPS = 200 };
 
 /* The mean square error of such caps by the copies together that the pixels of one block have: their numbers
  * differ in the highest bits. */
-static double square_error(const aur_gather_rule *rule, size_t copies, const double *truth) {
+static double square_error(const aur_gather_rule *rule, size_t copies, const double *reference) {
     double sum = 0.0;
     for (uint64_t t = 0; t < CAPS; ++t) {
         double share = 0.0;
         for (size_t k = 0; k < copies; ++k)
             share += share_of_cap(rule, rule->copies / copies * k, aur_hash2(7, t)) / (double)copies;
-        sum += (share - truth[t]) * (share - truth[t]) / CAPS;
+        sum += (share - reference[t]) * (share - reference[t]) / CAPS;
     }
     return sum;
 }
@@ -54,10 +54,10 @@ static double square_error(const aur_gather_rule *rule, size_t copies, const dou
 static void blocks_make_finer_patterns(void **state) {
     (void)state;
     enum { FINE = 40000 };
-    double truth[CAPS];
+    double reference[CAPS];
     aur_gather_rule fine = must_make(FINE, false);
     for (uint64_t t = 0; t < CAPS; ++t)
-        truth[t] = share_of_cap(&fine, 0, aur_hash2(7, t));
+        reference[t] = share_of_cap(&fine, 0, aur_hash2(7, t));
     aur_gather_rule_release(&fine);
     static const size_t counts[] = {4, 16, 44};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c) {
@@ -65,8 +65,8 @@ static void blocks_make_finer_patterns(void **state) {
         assert_int_equal(nested.copies, AUR_NESTED_COUNT);
         for (size_t copies = 4; copies <= AUR_NESTED_COUNT; copies *= 4) {
             aur_gather_rule peer = must_make(copies * counts[c], false);
-            const double nested_square = square_error(&nested, copies, truth);
-            const double square = square_error(&peer, 1, truth);
+            const double nested_square = square_error(&nested, copies, reference);
+            const double square = square_error(&peer, 1, reference);
             if (nested_square > 2.0 * square)
                 fail_msg("%zu shifts of %zu directions: error %g, of one set %g", copies, counts[c],
                          sqrt(nested_square), sqrt(square));

@@ -154,7 +154,7 @@ static void open_scenes_are_reported(void **state) {
     aur_scene *const scene = must_load_body(FIVE_WALLS);
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 1);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 10000);
     assert_in_range(describe(radiosity).lost, 2000, 5000);
     assert_int_equal(received.count, 1);
@@ -169,7 +169,7 @@ static void backs_are_reported(void **state) {
     aur_scene *const scene = must_load_body(ROOM "<shape type='rectangle'><bsdf type='diffuse'/></shape>");
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
     assert_in_range(describe(radiosity).behind, 100, 900);
     assert_int_equal(received.count, 1);
@@ -186,7 +186,7 @@ static void bright_albedos_are_reported(void **state) {
                                             "<emitter type='area'/></shape>");
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
     assert_true(describe(radiosity).tail == 1.0 && describe(radiosity).largest_albedo == 1.0);
     assert_int_equal(received.count, 1);
@@ -205,7 +205,7 @@ static void coincident_surfaces_are_reported(void **state) {
     (void)state;
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_scene *const standing = must_load_uncut(BOX("-0.6"));
     aur_radiosity *const lossy = must_create(standing, &options);
     assert_in_range(describe(lossy).coincident, 2, 4);
@@ -313,7 +313,7 @@ static void powers_beyond_the_sums_are_reported(void **state) {
     aur_scene *const scene = must_load_body(ROOM);
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_radiosity *const radiosity = must_trace(scene, &options, 100), *const whole =
                                                                            must_trace(scene, &options, 100);
     double *const start = radiosity->walk.start[0];
@@ -344,7 +344,7 @@ static void other_materials_are_reported(void **state) {
                             "</transform><bsdf type='plastic'/></shape>");
     messages received = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
-    options.warnings = (aur_warnings){keep_message, &received};
+    options.warnings = (aur_warnings){store_message, &received};
     aur_radiosity_destroy(must_create(scene, &options));
     assert_int_equal(received.count, 1);
     assert_non_null(strstr(received.text, "only the diffuse part of the material 'plastic'"));

@@ -78,15 +78,15 @@ aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, c
     return AUR_OK;
 }
 
-aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential *fitted, size_t count,
+aur_result aur_weights_reweight(const aur_potential *target, const aur_potential *fitted, size_t count,
                                 const double *xyz, double *weights, aur_error *error) {
-    if (wanted->density.kind == AUR_DENSITY_NODES || fitted->density.kind == AUR_DENSITY_NODES)
+    if (target->density.kind == AUR_DENSITY_NODES || fitted->density.kind == AUR_DENSITY_NODES)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
     for (size_t i = 0; i < count; ++i) {
         if (weights[i] == 0.0)
             continue;
         double values[2];
-        aur_result result = aur_potential_density(wanted, 1, xyz + 3 * i, &values[0], error);
+        aur_result result = aur_potential_density(target, 1, xyz + 3 * i, &values[0], error);
         if (result == AUR_OK)
             result = aur_potential_density(fitted, 1, xyz + 3 * i, &values[1], error);
         if (result != AUR_OK)

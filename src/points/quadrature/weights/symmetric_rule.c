@@ -20,7 +20,7 @@ static bool keeps_z(const aur_rotation *element) {
 
 /* Elements that map the z axis to itself, under which product rules can be invariant, and the required
  * divisor of azimuths: twice the order of the axis (with half steps, as in Dnd). */
-static size_t kept_order(const aur_point_group *group, size_t *step) {
+static size_t stored_order(const aur_point_group *group, size_t *step) {
     size_t order = 0, axis = 0;
     for (size_t i = 0; i < group->order; ++i) {
         const double *const m = group->elements[i].m;
@@ -101,7 +101,7 @@ static size_t reduce(const aur_point_group *group, const product *rule, double *
 aur_result aur_symmetric_rule(const aur_point_group *group, size_t most, size_t capacity, double *xyz,
                               double *weights, size_t *count, aur_error *error) {
     size_t step;
-    const size_t order = kept_order(group, &step);
+    const size_t order = stored_order(group, &step);
     product rule = {0};
     if (group->order < 1 || group->order > AUR_POINT_GROUP_ORDER_MAX || most > SIZE_MAX / 4096)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu points of a group of %zu elements", most,

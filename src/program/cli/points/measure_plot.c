@@ -84,7 +84,7 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
                                  size_t metric, size_t source, report_series *series, char *label,
                                  report_point *points) {
     const char *const name = arguments->sources[source];
-    const power_model power_law = fit(arguments, rows, name, metric);
+    const power_model power_fit = fit(arguments, rows, name, metric);
     const bool spread = arguments->seed_count > 0;
     const unsigned ink = REPORT_INK_SERIES + (unsigned)source;
     double least = INFINITY, most = 0.0;
@@ -103,13 +103,13 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
     }
     points += series[0].count;
     series[1] = (report_series){.parts = REPORT_LINE | REPORT_DASHED, .ink = ink, .points = points};
-    if (power_law.count == 0) {
+    if (power_fit.count == 0) {
         snprintf(label, LABEL, "%s", name);
         return points;
     }
-    aur_format(label, LABEL, "%s  slope %.3f", name, power_law.slope);
-    points[0] = (report_point){.x = least, .y = power_law.factor * pow(least, power_law.slope)};
-    points[1] = (report_point){.x = most, .y = power_law.factor * pow(most, power_law.slope)};
+    aur_format(label, LABEL, "%s  slope %.3f", name, power_fit.slope);
+    points[0] = (report_point){.x = least, .y = power_fit.factor * pow(least, power_fit.slope)};
+    points[1] = (report_point){.x = most, .y = power_fit.factor * pow(most, power_fit.slope)};
     series[1].count = 2;
     return points + 2;
 }
@@ -117,10 +117,10 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
 static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
     for (size_t m = 0; m < arguments->metrics.count; ++m)
         for (size_t s = 0; s < arguments->source_count; ++s) {
-            const power_model power_law = fit(arguments, rows, arguments->sources[s], m);
-            if (power_law.count > 0)
+            const power_model power_fit = fit(arguments, rows, arguments->sources[s], m);
+            if (power_fit.count > 0)
                 fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", cli_metric(arguments, m),
-                        arguments->sources[s], power_law.slope, power_law.count);
+                        arguments->sources[s], power_fit.slope, power_fit.count);
         }
 }
 

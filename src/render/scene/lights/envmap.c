@@ -32,7 +32,7 @@ static aur_vector color_of(aur_texel texel) {
 }
 
 /* Copies the texels, with the first column repeated at the end. */
-static aur_result keep_picture(size_t width, size_t height, const float *rgb, float scale, aur_envmap *self) {
+static aur_result store_image(size_t width, size_t height, const float *rgb, float scale, aur_envmap *self) {
     self->width = width;
     self->rows = height - 1;
     self->texels = malloc((width + 1) * height * sizeof *self->texels);
@@ -45,8 +45,8 @@ static aur_result keep_picture(size_t width, size_t height, const float *rgb, fl
     return self->texels != NULL ? AUR_OK : AUR_ERROR_MEMORY;
 }
 
-static aur_result read_picture(const aur_parameters *parameters, const aur_parameter *held,
-                               const envmap_keys *p, aur_envmap *self, aur_error *error) {
+static aur_result read_image(const aur_parameters *parameters, const aur_parameter *held,
+                             const envmap_keys *p, aur_envmap *self, aur_error *error) {
     if (p->filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap' needs the string 'filename'");
@@ -59,7 +59,7 @@ static aur_result read_picture(const aur_parameters *parameters, const aur_param
     aur_result result = aur_image_radiance(p->filename, image, &rgb, error);
     if (result == AUR_OK && (width < 2 || height < 2))
         result = aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the image must be at least 2 x 2");
-    else if (result == AUR_OK && keep_picture(width, height, rgb, (float)p->scale, self) != AUR_OK)
+    else if (result == AUR_OK && store_image(width, height, rgb, (float)p->scale, self) != AUR_OK)
         result = aur_fail_memory_at(error, parameters->location);
     free(rgb);
     return result;
@@ -74,7 +74,7 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &p.to_world, &to_local, error);
     if (result == AUR_OK)
-        result = read_picture(parameters, held, &p, self, error);
+        result = read_image(parameters, held, &p, self, error);
     if (result != AUR_OK)
         return result;
     aur_vector *const axes[3] = {&self->frame.x, &self->frame.y, &self->frame.z};

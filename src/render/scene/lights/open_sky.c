@@ -81,7 +81,7 @@ static aur_result set_lights(const aur_scene *scene, view *created, aur_open_sky
             created->dark[i] = *scene->emitters[i];
             created->dark[i].radiance = (aur_color){.texture = NULL};
             created->dark[i].power = 0.0;
-            open->lamps += scene->emitters[i]->descriptor->radiance_from == NULL;
+            open->removed_lights += scene->emitters[i]->descriptor->radiance_from == NULL;
             copy->emitters[i] = &created->dark[i];
         }
         copy->environments[0] = copy->emitters[count] = created->sky;

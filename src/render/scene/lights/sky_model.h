@@ -61,7 +61,7 @@ double aur_sky_model_irradiance(const aur_sky_model *sky);
 typedef struct aur_open_sky {
     const aur_scene *scene; /* the scene to trace rays in: the sky is its only light */
     aur_sun_position frame; /* orientation of up, north and east; without a sun */
-    size_t lamps;           /* number of the scene's lights removed, not counting environments */
+    size_t removed_lights;  /* number of the scene's lights removed, not counting environments */
 } aur_open_sky;
 
 /* Radiance is 1 above the horizon and `ground` below. If `up` and `north` are all 0, the orientation is that

@@ -46,7 +46,7 @@ aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_
 }
 
 /* Whether a nested object has a name that states its role. */
-static bool has_own_name(const char *tag, const aur_parameters *parameters) {
+static bool has_name(const char *tag, const aur_parameters *parameters) {
     return strcmp(tag, "texture") == 0 || strcmp(tag, "volume") == 0 ||
            (strcmp(tag, "medium") == 0 && strcmp(parameters->kind, "shape") == 0);
 }
@@ -56,7 +56,7 @@ static bool has_own_name(const char *tag, const aur_parameters *parameters) {
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *given = aur_xml_attribute_value(child, "name");
-    const bool named = has_own_name(tag, parameters);
+    const bool named = has_name(tag, parameters);
     /* The single texture of a bumpmap may have any name. */
     if (named && strcmp(parameters->plugin, "bumpmap") == 0)
         given = "texture";

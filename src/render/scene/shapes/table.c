@@ -109,13 +109,13 @@ static void recenter_curves(aur_shape *shape, const double origin[3]) {
         shape->area += shape->curved->area(shape, i);
 }
 
-aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error) {
+aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool with_points, aur_error *error) {
     shape->center = aur_place_from(origin, shape->position);
     if (shape->curves.segment_count > 0)
         recenter_curves(shape, origin);
     if (shape->curved != NULL)
         return AUR_OK;
-    aur_result result = aur_mesh_recenter(&shape->mesh, origin, keep_points, shape->location, error);
+    aur_result result = aur_mesh_recenter(&shape->mesh, origin, with_points, shape->location, error);
     if (result == AUR_OK && shape->smooth)
         result = aur_mesh_smooth(&shape->mesh, shape->location, error);
     if (result == AUR_OK && shape->descriptor->read_file != NULL)

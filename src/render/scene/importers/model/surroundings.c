@@ -18,7 +18,7 @@ static double clamp(double value, double lower, double upper) {
 
 /* --- the camera */
 
-static void add_look(aur_nodes *nodes, aur_xml_node *to_world, const aur_import_camera *camera) {
+static void add_appearance(aur_nodes *nodes, aur_xml_node *to_world, const aur_import_camera *camera) {
     const double *const o = camera->origin, *const d = camera->direction;
     double up[3] = {camera->up[0], camera->up[1], camera->up[2]};
     /* Replaces an up vector that is parallel to the view by another direction. */
@@ -68,7 +68,7 @@ static void add_pose(aur_nodes *nodes, aur_xml_node *sensor, const aur_import_ca
         aur_node_set_numbers(nodes, scale, "x", 1, &camera->half_width);
         aur_node_set_numbers(nodes, scale, "y", 1, &camera->half_width);
     }
-    add_look(nodes, to_world, camera);
+    add_appearance(nodes, to_world, camera);
 }
 
 /* Models have any size: near and far clipping must not remove anything. */

@@ -167,8 +167,8 @@ aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_
 }
 
 /* The luminaire points along its local -z, with C 0 along +x. */
-aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up) {
-    double z[3] = {-lamp->aim[0], -lamp->aim[1], -lamp->aim[2]}, x[3] = {1.0, 0.0, 0.0}, y[3];
+aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *luminaire, bool z_up) {
+    double z[3] = {-luminaire->aim[0], -luminaire->aim[1], -luminaire->aim[2]}, x[3] = {1.0, 0.0, 0.0}, y[3];
     if (!(aur_normalize3(z) > 0.0))
         z[z_up ? 2 : 1] = 1.0;
     if (fabs(z[0]) > 0.99) {
@@ -180,7 +180,7 @@ aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *lamp,
         x[i] -= along * z[i];
     aur_normalize3(x);
     aur_cross3(z, x, y);
-    const double *const o = lamp->position, angle = lamp->turn * 3.14159265358979323846 / 180.0;
+    const double *const o = luminaire->position, angle = luminaire->turn * 3.14159265358979323846 / 180.0;
     const double c = cos(angle), s = sin(angle);
     double m[16] = {[15] = 1.0};
     for (size_t i = 0; i < 3; ++i) {
@@ -190,7 +190,7 @@ aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *lamp,
         m[4 * i + 3] = o[i];
     }
     aur_xml_node *const emitter = aur_node_object(nodes, nodes->tree->root, "emitter", "photometric");
-    aur_node_property(nodes, emitter, "string", "filename", "%s", lamp->file);
+    aur_node_property(nodes, emitter, "string", "filename", "%s", luminaire->file);
     aur_xml_node *const to_world = aur_node_add(nodes, emitter, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
     aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, m);
