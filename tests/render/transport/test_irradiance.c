@@ -83,6 +83,35 @@ static void endless_paths_are_reported(void **state) {
     aur_scene_destroy(grey);
 }
 
+/* A diffuse furnace has no caustics: an empty map needs as many particles as photons, whole batches of 16384
+ * on top, and is an error where photons are required. */
+static void empty_maps_end_early(void **state) {
+    (void)state;
+    enum { PHOTONS = 40000, BATCH = 16384 };
+    aur_scene *const scene = load_furnace(), *const unlit = must_load_body(
+                                                 "<shape type='rectangle'><emitter type='area'/></shape>");
+    aur_photon_options options = {
+        .count = PHOTONS, .max_edges = SIZE_MAX, .seed = 7, .kind = AUR_PHOTONS_CAUSTIC};
+    aur_elements elements;
+    aur_photon_map map;
+    aur_error error = {0};
+    assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);
+    assert_int_equal(aur_photon_map_create(scene, &elements, &options, &map, &error), AUR_OK);
+    assert_int_equal(map.count, 0);
+    assert_in_range(map.paths, PHOTONS + BATCH, PHOTONS + 2 * BATCH);
+    aur_photon_map_release(&map);
+    aur_elements_release(&elements);
+    options.kind = AUR_PHOTONS_ALL;
+    assert_int_equal(aur_elements_create(unlit, &elements), AUR_OK);
+    assert_int_equal(aur_photon_map_create(unlit, &elements, &options, &map, &error), AUR_ERROR_UNSUPPORTED);
+    unsigned paths = 0;
+    assert_int_equal(sscanf(error.message, "photon map: 0 photons stored after %u", &paths), 1);
+    assert_in_range(paths, PHOTONS + BATCH, PHOTONS + 2 * BATCH);
+    aur_elements_release(&elements);
+    aur_scene_destroy(scene);
+    aur_scene_destroy(unlit);
+}
+
 /* Texels lose no photon and count none twice: their total area is that of the walls, their power that of the
  * photons, to rounding. */
 static void texels_hold_all_the_power(void **state) {
@@ -228,10 +257,15 @@ static void photons_come_from_any_set(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(photons_bring_all_the_power), cmocka_unit_test(endless_paths_are_reported),
-        cmocka_unit_test(texels_hold_all_the_power),   cmocka_unit_test(lookups_agree_with_density_estimates),
-        cmocka_unit_test(unlit_sides_stay_dark),       cmocka_unit_test(triangle_texels_cover_it_evenly),
-        cmocka_unit_test(photons_come_from_any_set),   cmocka_unit_test(does_not_depend_on_threads),
+        cmocka_unit_test(photons_bring_all_the_power),
+        cmocka_unit_test(endless_paths_are_reported),
+        cmocka_unit_test(empty_maps_end_early),
+        cmocka_unit_test(texels_hold_all_the_power),
+        cmocka_unit_test(lookups_agree_with_density_estimates),
+        cmocka_unit_test(unlit_sides_stay_dark),
+        cmocka_unit_test(triangle_texels_cover_it_evenly),
+        cmocka_unit_test(photons_come_from_any_set),
+        cmocka_unit_test(does_not_depend_on_threads),
     };
     return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
 }

@@ -178,44 +178,38 @@ static bool finish(packing *self) {
     return true;
 }
 
-/* The same as `measure` for numbers of a byte, which most images have, by a table. */
-static void measure_bytes(const packing *self) {
+/* Inlined with a constant `value_bytes`. */
+static inline void measure_values(const packing *self, size_t value_bytes) {
     const aur_bitmap *const texels = self->texels;
-    const size_t second = texels->channels == 3 ? 1 : 0;
-    double values[3][BYTE_NUMBERS], sum[3] = {0}, most[3] = {0};
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t i = 0; i < self->numbers.count; ++i) {
-            const float value = texels->table[c * texels->table_step + i];
-            values[c][i] = value > 0.0f ? (double)value : 0.0;
-        }
+    const size_t second = texels->channels == 3 ? value_bytes : 0, step = texels->channels * value_bytes;
+    double sum[3] = {0};
+    float most = 0.0f;
     for (size_t y = 0; y < texels->height; ++y)
         for (size_t x = 0, run; x < texels->width; x += run) {
             run = run_of(texels, x);
-            const unsigned char *at = texels->memory + aur_bitmap_index(texels, x, y) * texels->channels;
-            for (size_t k = 0; k < run; ++k, at += texels->channels)
+            const unsigned char *at = texels->memory + aur_bitmap_index(texels, x, y) * step;
+            for (size_t k = 0; k < run; ++k, at += step)
                 for (size_t c = 0; c < 3; ++c) {
-                    const double value = values[c][at[c * second]];
-                    sum[c] += value;
-                    most[c] = value > most[c] ? value : most[c];
+                    float value = aur_bitmap_value(texels, value_bytes, c, at + c * second);
+                    value = value > 0.0f ? value : 0.0f;
+                    sum[c] += (double)value;
+                    most = value > most ? value : most;
                 }
         }
     memcpy(self->range->sum, sum, sizeof sum);
-    for (size_t c = 0; c < 3; ++c)
-        self->range->maximum = fmaxf(self->range->maximum, (float)most[c]);
+    self->range->maximum = most;
 }
 
 static void measure(const packing *self) {
-    aur_texel_range *const range = self->range;
-    for (size_t y = 0; y < self->texels->height; ++y) {
-        for (size_t x = 0; x < self->texels->width; ++x) {
-            float rgb[3];
-            aur_bitmap_at(self->texels, x, y, rgb);
-            for (size_t c = 0; c < 3; ++c) {
-                const float value = rgb[c] > 0.0f ? rgb[c] : 0.0f;
-                range->sum[c] += (double)value;
-                range->maximum = value > range->maximum ? value : range->maximum;
-            }
-        }
+    switch (self->texels->value_bytes) {
+    case 1:
+        measure_values(self, 1);
+        break;
+    case 2:
+        measure_values(self, 2);
+        break;
+    default:
+        measure_values(self, 4);
     }
 }
 
@@ -250,7 +244,7 @@ aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *page
     good = good && finish(&self);
     aur_result result = good ? AUR_OK : aur_fail_memory(error);
     if (good) {
-        (texels->value_bytes == 1 ? measure_bytes : measure)(&self);
+        measure(&self);
         result = move_to_pages(texels, pages, error);
     }
     numbering_end(&self.numbers);

@@ -52,27 +52,31 @@ static inline size_t aur_bitmap_index(const aur_bitmap *texels, size_t x, size_t
     return tile << (texels->tile_x + texels->tile_y) | (y & down) << texels->tile_x | (x & across);
 }
 
+/* The value of channel c at `from`. */
+static inline float aur_bitmap_value(const aur_bitmap *texels, size_t value_bytes, size_t c,
+                                     const unsigned char *from) {
+    uint16_t number;
+    float value;
+    switch (value_bytes) {
+    case 1:
+        return texels->table[c * texels->table_step + *from];
+    case 2:
+        memcpy(&number, from, sizeof number);
+        return texels->table[c * texels->table_step + number];
+    default:
+        memcpy(&value, from, sizeof value);
+        return value;
+    }
+}
+
 /* Red, green and blue, possibly negative, of a valid texel. */
 static inline void aur_bitmap_at(const aur_bitmap *texels, size_t x, size_t y, float rgb[3]) {
     const size_t bytes = texels->channels * texels->value_bytes;
     const size_t at = aur_bitmap_index(texels, x, y) * bytes;
     const unsigned char *const value = texels->values + at;
-    const size_t second = texels->channels == 3 ? 1 : 0;
+    const size_t second = texels->channels == 3 ? texels->value_bytes : 0;
     if (texels->pages != NULL)
         aur_texel_pages_use(texels->pages, texels->first_block, at, at + bytes - 1);
-    for (size_t c = 0; c < 3; ++c) {
-        const size_t i = c * second;
-        uint16_t number;
-        switch (texels->value_bytes) {
-        case 1:
-            rgb[c] = texels->table[c * texels->table_step + value[i]];
-            break;
-        case 2:
-            memcpy(&number, value + 2 * i, sizeof number);
-            rgb[c] = texels->table[c * texels->table_step + number];
-            break;
-        default:
-            memcpy(&rgb[c], value + 4 * i, sizeof rgb[c]);
-        }
-    }
+    for (size_t c = 0; c < 3; ++c)
+        rgb[c] = aur_bitmap_value(texels, texels->value_bytes, c, value + c * second);
 }

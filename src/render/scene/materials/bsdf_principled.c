@@ -138,35 +138,39 @@ static float add_coat(const principled_terms *at, const aur_facet *facet, aur_ve
 
 /* --- queries */
 
-static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light, float *pdf) {
-    const principled *const self = bsdf->data;
-    const principled_terms at = terms_at(self, part, point, view);
+static aur_vector value_of(const principled_terms *at, aur_bsdf_part part, aur_vector view, aur_vector light,
+                           float *pdf) {
     aur_facet facet;
     *pdf = 0.0f;
     const bool mirrored = view.z * light.z > 0.0f;
-    if (((!at.front || !mirrored) && !(at.glass > 0.0f)) || !aur_facet_find(at.eta, view, light, &facet))
+    if (((!at->front || !mirrored) && !(at->glass > 0.0f)) || !aur_facet_find(at->eta, view, light, &facet))
         return (aur_vector){0};
-    const float mirror = probability_of_mirror(&at, facet.mirrored);
-    const float through = at.glass * (1.0f - facet.mirrored) / (facet.ratio * facet.ratio);
-    const aur_vector base = at.burley.base;
+    const float mirror = probability_of_mirror(at, facet.mirrored);
+    const float through = at->glass * (1.0f - facet.mirrored) / (facet.ratio * facet.ratio);
+    const aur_vector base = at->burley.base;
     aur_vector sum = aur_vector_scale(
-        mirrored ? reflectance(&at, facet.view, facet.mirrored)
+        mirrored ? reflectance(at, facet.view, facet.mirrored)
                  : aur_vector_scale((aur_vector){sqrtf(base.x), sqrtf(base.y), sqrtf(base.z)}, through),
-        aur_facet_value(&at.facets, view, light, &facet));
-    *pdf = (1.0f - at.diffuse_probability - at.coat_probability) * (mirrored ? mirror : 1.0f - mirror) *
-           aur_facet_pdf(&at.facets, view, &facet);
-    if (!at.front || !mirrored)
+        aur_facet_value(&at->facets, view, light, &facet));
+    *pdf = (1.0f - at->diffuse_probability - at->coat_probability) * (mirrored ? mirror : 1.0f - mirror) *
+           aur_facet_pdf(&at->facets, view, &facet);
+    if (!at->front || !mirrored)
         return sum;
-    if (at.coat > 0.0f)
-        *pdf += at.coat_probability * add_coat(&at, &facet, view, light, &sum);
-    *pdf += at.diffuse_probability * light.z / AUR_PI_F;
-    sum = aur_vector_add(sum, aur_burley_rest(&at.burley, at.base, 1.0f - at.metallic, view, light));
+    if (at->coat > 0.0f)
+        *pdf += at->coat_probability * add_coat(at, &facet, view, light, &sum);
+    *pdf += at->diffuse_probability * light.z / AUR_PI_F;
+    sum = aur_vector_add(sum, aur_burley_rest(&at->burley, at->base, 1.0f - at->metallic, view, light));
     if (part == AUR_BSDF_SAMPLED_LOBES)
         return sum;
-    const float lambert = at.base * (1.0f - at.burley.flatness) * aur_burley_edge(NULL, view.z) *
+    const float lambert = at->base * (1.0f - at->burley.flatness) * aur_burley_edge(NULL, view.z) *
                           aur_burley_edge(NULL, light.z) * light.z / AUR_PI_F;
     return aur_vector_add_scaled(sum, lambert, base);
+}
+
+static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light, float *pdf) {
+    const principled_terms at = terms_at(bsdf->data, part, point, view);
+    return value_of(&at, part, view, light, pdf);
 }
 
 /* False: no direction. */
@@ -191,13 +195,12 @@ static bool draw_direction(const principled_terms *at, aur_vector view, const fl
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
-    const principled *const self = bsdf->data;
-    const principled_terms at = terms_at(self, part, point, view);
+    const principled_terms at = terms_at(bsdf->data, part, point, view);
     aur_vector light;
     if (view.z == 0.0f || (!at.front && !(at.glass > 0.0f)) || !draw_direction(&at, view, u, &light))
         return false;
     float pdf;
-    const aur_vector value = evaluate(bsdf, part, point, view, light, &pdf);
+    const aur_vector value = value_of(&at, part, view, light, &pdf);
     const float ior = at.front ? at.eta : 1.0f / at.eta;
     *drawn = (aur_bsdf_sample){.light = light,
                                .weight = aur_vector_scale(value, 1.0f / pdf),

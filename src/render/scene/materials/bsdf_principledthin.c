@@ -107,6 +107,24 @@ static aur_vector facets(const thin_terms *at, aur_vector view, aur_vector light
 
 /* --- queries */
 
+/* For a view from above. */
+static aur_vector value_of(const thin_terms *at, aur_bsdf_part part, aur_vector view, aur_vector light,
+                           float *pdf) {
+    const aur_vector base = at->burley.base;
+    aur_vector sum = facets(at, view, light, pdf);
+    if (light.z < 0.0f) {
+        *pdf -= at->diffuse_through_probability * light.z / AUR_PI_F;
+        return aur_vector_add_scaled(sum, -at->diffuse_through * light.z / AUR_PI_F, base);
+    }
+    *pdf += at->diffuse_probability * light.z / AUR_PI_F;
+    sum = aur_vector_add(sum, aur_burley_rest(&at->burley, at->diffuse, at->diffuse, view, light));
+    if (part == AUR_BSDF_SAMPLED_LOBES)
+        return sum;
+    const float lambert = at->diffuse * (1.0f - at->burley.flatness) * aur_burley_edge(NULL, view.z) *
+                          aur_burley_edge(NULL, light.z) * light.z / AUR_PI_F;
+    return aur_vector_add_scaled(sum, lambert, base);
+}
+
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     *pdf = 0.0f;
@@ -114,21 +132,8 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
         return (aur_vector){0};
     const float side = view.z < 0.0f ? -1.0f : 1.0f;
     view = aur_vector_scale(view, side);
-    light = aur_vector_scale(light, side);
     const thin_terms at = terms_at(bsdf->data, part, point, view);
-    const aur_vector base = at.burley.base;
-    aur_vector sum = facets(&at, view, light, pdf);
-    if (light.z < 0.0f) {
-        *pdf -= at.diffuse_through_probability * light.z / AUR_PI_F;
-        return aur_vector_add_scaled(sum, -at.diffuse_through * light.z / AUR_PI_F, base);
-    }
-    *pdf += at.diffuse_probability * light.z / AUR_PI_F;
-    sum = aur_vector_add(sum, aur_burley_rest(&at.burley, at.diffuse, at.diffuse, view, light));
-    if (part == AUR_BSDF_SAMPLED_LOBES)
-        return sum;
-    const float lambert = at.diffuse * (1.0f - at.burley.flatness) * aur_burley_edge(NULL, view.z) *
-                          aur_burley_edge(NULL, light.z) * light.z / AUR_PI_F;
-    return aur_vector_add_scaled(sum, lambert, base);
+    return value_of(&at, part, view, aur_vector_scale(light, side), pdf);
 }
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -154,7 +159,7 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     if (through && u[0] >= diffuse && aur_vector_dot(light, normal) >= 0.0f)
         return false;
     float pdf;
-    const aur_vector value = evaluate(bsdf, part, point, view, light, &pdf);
+    const aur_vector value = value_of(&at, part, view, light, &pdf);
     *drawn = (aur_bsdf_sample){
         .light = aur_vector_scale(light, side), .weight = aur_vector_scale(value, 1.0f / pdf), .pdf = pdf};
     return pdf > 0.0f;
