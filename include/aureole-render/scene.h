@@ -90,7 +90,8 @@ typedef struct aur_scene_stage {
      * "back", "left", "right", "top", "bottom", "corner" (26.6 degrees to the right of the front and 17.4
      * above it), "iso" (45 and 35.3), or "AZIMUTH,ELEVATION" in degrees. "X,Y,Z,X,Y,Z" is a camera at the
      * first point that looks at the second; a seventh number is the vertical field of view in degrees.
-     * NULL: the camera of the scene. */
+     * "-vp X Y Z -vd X Y Z ...": a view in the options of Radiance's rpict (-vtv only) with its own film,
+     * which replaces the scene's sensors. NULL: the camera of the scene. */
     const char *camera;
     /* "studio": light boxes around the camera, with a plain background; "sky" or
      * "sky:TURBIDITY" (1 to 10): sun and clear sky (Hosek and Wilkie 2012), scaled so that white is about 1;

@@ -50,6 +50,28 @@ refused "must be a file and its place" irradiance open.rad --sensors one.pts --l
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
 refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
 refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts
+# Radiance's spotlight on a small ring, rectangle or ball: radiance times projected area over (distance + focus)^2 within its cone. On the
+# rectangle the axis is not its normal, and the edge of the cone is blurred within a degree; a mirror image has its axis mirrored.
+printf 'void spotlight s 0 0 7 1e6 1e6 1e6 40 0 0 -2\ns ring r 0 0 8 0 0 3 0 0 -1 0 .001\n' >ring.rad
+printf 'void spotlight s 0 0 7 1e6 1e6 1e6 40 .5 .7 -2\ns polygon r 0 0 12 -.001 -.002 3 -.001 .002 3 .001 .002 3 .001 -.002 3\n' >tilted.rad
+printf 'void spotlight s 0 0 7 1e6 1e6 1e6 40 .5 .7 -2\ns sphere r 0 0 4 0 0 3 .001\n' >bulb.rad
+printf '!xform -mx tilted.rad\n' >mirror.rad
+awk 'BEGIN { for (x = -2; x <= 2; x += .5) for (y = -2; y <= 2; y += .5) print x, y, 0, 0, 0, 1 }' >floor.pts
+spot() { # FILE AREA FOCUS AXIS: x y z. FLAT: the ring and the rectangle face down
+  "$aureole" irradiance -q open.rad $1.rad --sensors floor.pts -n 256 --no-errors -o spot.csv || fail "$1"
+  awk -F, -v area=$2 -v f=$3 -v ax=$4 -v ay=$5 -v az=$6 -v flat=$7 'NR > 1 { pi = atan2(0, -1); d = sqrt($1 ^ 2 + $2 ^ 2 + 9)
+    c = ($1 * ax + $2 * ay - 3 * az) / d / sqrt(ax ^ 2 + ay ^ 2 + az ^ 2); angle = atan2(sqrt(1 - c * c), c) * 180 / pi
+    e = angle < 20 ? 1e6 * area * (flat ? 3 / d : 1) * 3 / d / (d + f) ^ 2 : 0; inside += e > 0
+    if (angle > 19 && angle < 21) next
+    x = $4 - e; if (x < 0) x = -x; if (x > 1e-3 * e) { print FILENAME, $0, e; bad = 1 } } END { exit bad || inside < 3 }' spot.csv || fail "the spotlight of $1"
+}
+disk=$(awk 'BEGIN { print atan2(0, -1) * 1e-6 }') focus=$(awk 'BEGIN { print sqrt(4.74) }')
+spot ring $disk 2 0 0 -2 1
+spot tilted 8e-6 $focus .5 .7 -2 1
+spot bulb $disk $focus .5 .7 -2 0
+spot mirror 8e-6 $focus -.5 .7 -2 1
+printf 'void spotlight s 0 0 7 1 1 1 40 0 0 0\ns ring r 0 0 8 0 0 3 0 0 -1 0 .001\n' >bad.rad
+refused "bad.rad:1: spotlight: R G B of 0 or more, an angle" irradiance bad.rad --sensors floor.pts
 # Radiance's ies2rad writes the same lamp as a pattern on a light: a rectangle, turned and moved; a disk; a ball.
 printf 'IESNA:LM-63-1995\nTILT=NONE\n1 -1 1 4 2 1 2 0.6 0.3 0 1 1 9\n0 30 60 90\n0 90\n895 537 179 0\n895 358 89.5 0\n' >rectangle.ies
 printf '2\n0 90 2\n0 0 4\n 0 30 60\n 90\n 5 3 1 0 5 2 .5 0\n' >rectangle.dat

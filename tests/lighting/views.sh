@@ -40,6 +40,15 @@ printf 'VIEW= -vtv -vs .5\n' >bad.vf
 refused "bad.vf:1: view: a view that is shifted" lamp.rad bad.vf
 printf 'VIEW= -vd 0 0 0\n' >bad.vf
 refused "view: -vd and -vu must not be 0" lamp.rad bad.vf
+# The same view by options, also in place of the scene's cameras.
+"$aureole" render -q -vtv -vp 1 2 3 -vd 0 2 0 lamp.rad wide.txt -vh 90 -vv 90 --width 16 --spp 16 --filter box -o options.pfm && cmp front.pfm options.pfm || fail "a view by options"
+"$aureole" render -q lamp.rad --camera "-vp 1 2 3 -vh 90 -vv 90" --width 16 --spp 16 --filter box -o options.pfm -- && cmp front.pfm options.pfm || fail "--camera"
+"$aureole" render -q -vf front.vf --width 16 --spp 16 --filter box -o options.pfm lamp.rad && cmp front.pfm options.pfm || fail "-vf"
+printf '<scene version="3.0.0"><sensor type="perspective"/><shape type="rectangle"/></scene>' >camera.xml
+"$aureole" render -q camera.xml lamp.rad -vp 1 2 3 -vh 90 -vv 90 -vd -0 +.5 0 --width 16 --spp 16 --filter box -o options.pfm && cmp front.pfm options.pfm || fail "a scene with a camera"
+refused "view: only perspective views" lamp.rad -vta
+refused "view: 3 numbers expected after '-vp'" lamp.rad -vp 1 2
+refused "unknown option '-p'" lamp.rad -vp
 command=convert
 refused "--falsecolor is of --luminance" front.pfm map.png --falsecolor 5
 refused "--contours needs --falsecolor" front.pfm map.png --contours

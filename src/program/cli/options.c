@@ -358,9 +358,51 @@ int cli_announce_outputs(const cli_call *call) {
     return cli_status(result, &error);
 }
 
+/* The number of values of a view option of Radiance's rpict; SIZE_MAX for other words. */
+static size_t count_view_values(const char *word) {
+    if (strncmp(word, "-v", 2) != 0 || word[2] == '\0')
+        return SIZE_MAX;
+    if (word[2] == 't' && word[3] != '\0' && word[4] == '\0')
+        return 0;
+    return word[3] != '\0'                     ? SIZE_MAX
+           : strchr("pdu", word[2]) != NULL    ? 3
+           : strchr("hvoasl", word[2]) != NULL ? 1
+                                               : SIZE_MAX;
+}
+
+/* Replaces the view options among the arguments (-vp X Y Z -vd X Y Z ...) by one --camera. */
+static void gather_view(const getopt_options *list, int *argc, char **argv) {
+    static char camera[1024];
+    size_t used = (size_t)aur_format(camera, sizeof camera, "--camera=");
+    const size_t empty = used;
+    double number;
+    int kept = 1;
+    const bool has_camera = find_name(list, "camera") != NULL;
+    for (int i = 1, next; i < *argc; i = next) {
+        const bool is_file =
+            has_camera && strcmp(argv[i], "-vf") == 0; /* the view file is a file of the scene */
+        const size_t count = has_camera ? count_view_values(argv[i]) : SIZE_MAX;
+        for (next = i + 1; next < *argc && count != SIZE_MAX && (size_t)(next - i) <= count &&
+                           aur_parse_double(argv[next], &number);)
+            ++next;
+        const bool is_view = count == 0 || (count != SIZE_MAX && next > i + 1);
+        for (int k = i; k < next && is_view && used < sizeof camera; ++k)
+            used +=
+                (size_t)aur_format(camera + used, sizeof camera - used, used > empty ? " %s" : "%s", argv[k]);
+        for (int k = i; k < next && !is_view && !is_file; ++k)
+            argv[kept++] = argv[k];
+    }
+    if (used > empty) { /* in front, because "--" may end the options */
+        memmove(argv + 2, argv + 1, (size_t)(kept++ - 1) * sizeof *argv);
+        argv[1] = camera;
+    }
+    *argc = kept;
+}
+
 bool cli_read_options(const cli_command *command, int argc, char **argv, cli_call *call) {
     const getopt_options list = list_options(command);
     char *const fields = call->options;
+    gather_view(&list, &argc, argv);
     call->command = command;
     if (!put_defaults(command, fields))
         return false;

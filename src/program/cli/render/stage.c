@@ -41,7 +41,9 @@ static aur_result parse_time(const char *text, void *field, aur_error *error) {
 const cli_option cli_stage_options[] = {
     {CLI_TEXT(cli_stage, stage.camera, "camera", "VIEW", NULL,
               "front, back, left, right, top, bottom, corner, iso or AZIMUTH,ELEVATION: a camera that shows "
-              "the full scene; or X,Y,Z,X,Y,Z[,FOV]: position, target, vertical field of view in degrees")},
+              "the full scene; X,Y,Z,X,Y,Z[,FOV]: position, target, vertical field of view in degrees; or a "
+              "view of "
+              "Radiance, also without --camera: -vp X Y Z -vd X Y Z -vu X Y Z -vh DEGREES -vv DEGREES")},
     {CLI_TEXT(cli_stage, stage.environment, "environment", "NAME", NULL,
               "environment light: studio, sky[:TURBIDITY], none, or a latitude-longitude environment map "
               "(.exr, .hdr)"),

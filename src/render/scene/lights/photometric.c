@@ -14,13 +14,14 @@ typedef struct photometric_light {
     double world_middle[3]; /* centre in the world */
     aur_vector middle;      /* centre relative to the scene's origin */
     aur_vector half[3];     /* half axes of the opening: along length, width and height */
+    float focus;
 } photometric_light;
 
 typedef struct photometric_keys {
     const char *filename, *text;
     aur_color color;
     aur_transform to_world;
-    double lumens, scale;
+    double lumens, scale, focus;
     bool point;
 } photometric_keys;
 
@@ -39,6 +40,10 @@ static const aur_key keys[] = {
      .computed = true, .minimum_open = true},
     {AUR_KEY_OF_BOOLEAN(photometric_keys, "point", point, "false",
                         "a point, whatever dimensions the file has")},
+    {AUR_KEY_OF_REAL(
+        photometric_keys, "focus", focus, 0.0, 1e9, "0",
+        "distance of Radiance's focus behind the opening: light at the distance d is that of d + "
+        "focus; particle tracing ignores it")},
 };
 
 static void release(void *data) {
@@ -65,6 +70,7 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     const double flux = aur_photometry_flux(&self->photometry);
     const bool given = aur_parameters_find(parameters, "lumens") != NULL;
     const float watts = (float)(p.scale * (given ? p.lumens / flux : 1.0) / 179.0);
+    self->focus = (float)p.focus;
     self->to_world = p.to_world;
     aur_transform_point(&p.to_world, (const double[3]){0.0}, self->world_middle);
     const double sizes[3] = {self->photometry.length, self->photometry.width, self->photometry.height};
@@ -129,7 +135,9 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
     drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
     drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
     drawn->position = aur_point_target(query->reference.position, position, drawn->normal);
-    drawn->radiance = aur_vector_scale(emitter->radiance.constant, intensity(self, drawn->normal) / squared);
+    const float length = drawn->distance + self->focus,
+                falloff = self->focus > 0.0f ? length * length : squared;
+    drawn->radiance = aur_vector_scale(emitter->radiance.constant, intensity(self, drawn->normal) / falloff);
     drawn->pdf = 1.0f;
     drawn->delta = true;
     return aur_vector_max(drawn->radiance) > 0.0f;

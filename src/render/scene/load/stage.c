@@ -208,7 +208,8 @@ static aur_result set_camera(stage *self) {
     aur_scene *const scene = self->loader->scene;
     const char *camera = self->options->camera;
     const bool added = camera == NULL && self->model->alone && !self->model->framed;
-    if (!scene->has_sensor || (camera == NULL && !added))
+    /* A view of Radiance (-vp ...) has placed the sensor already. */
+    if (!scene->has_sensor || (camera == NULL && !added) || (camera != NULL && strncmp(camera, "-v", 2) == 0))
         return AUR_OK;
     if (added && scene->shape_count == 0)
         return aur_fail_at(self->nodes.error, self->model->location, AUR_ERROR_FORMAT,

@@ -19,6 +19,10 @@ struct aur_rad_luminaire {
     double turn[3][3]; /* columns: axes of the luminaire's frame in the world */
     size_t plane_count, angle_count;
     double *planes, *angles, *values; /* in the scene's arena */
+    /* Of a spotlight: its axis in the world and the cosine of half its cone, and the distance of the focus
+     * behind the surface; its frame follows from the surface. */
+    bool spot;
+    double aim[3], edge, focus;
 };
 
 static aur_result fail(const aur_rad *self, const aur_rad_primitive *item, const char *what) {
@@ -197,26 +201,135 @@ static char *write_ies(const struct aur_rad_luminaire *luminaire, const opening 
     return NULL;
 }
 
+/* --- spotlights */
+
+/* spotlight: R G B, the full angle of the cone in degrees, its axis. */
+aur_result aur_rad_add_spotlight(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    const double *const x = item->numbers;
+    struct aur_rad_luminaire *const luminaire = aur_arena_allocate(self->scene->arena, sizeof *luminaire);
+    if (luminaire == NULL)
+        return aur_fail_memory(self->error);
+    *luminaire = (struct aur_rad_luminaire){.factor = 1.0, .spot = true, .aim = {x[4], x[5], x[6]}};
+    aur_rad_pose_apply(&self->pose, 0.0, luminaire->aim);
+    luminaire->focus = aur_normalize3(luminaire->aim);
+    if (!(x[3] > 0.0 && x[3] <= 360.0) || !(luminaire->focus > 0.0) || !(fmin(fmin(x[0], x[1]), x[2]) >= 0.0))
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "spotlight: R G B of 0 or more, an angle above 0 and up to 360 degrees, and a "
+                            "direction expected");
+    luminaire->edge = cos(0.5 * x[3] * PI / 180.0);
+    memcpy(material->radiance, x, sizeof material->radiance);
+    material->luminaire = luminaire;
+    material->emits = true;
+    return AUR_OK;
+}
+
+/* The frame of a spotlight on a surface: -z along its normal, x along the first edge of a polygon. */
+static bool set_frame(const aur_rad *self, const aur_rad_primitive *item,
+                      struct aur_rad_luminaire *luminaire) {
+    double x[3] = {0.0}, y[3], z[3];
+    memcpy(z, luminaire->aim, sizeof z);
+    luminaire->flat = strcmp(item->row->name, "sphere") != 0;
+    if (strcmp(item->row->name, "polygon") == 0 && item->number_count >= 9) {
+        const double *const p = item->numbers;
+        for (size_t d = 0; d < 3; ++d) {
+            x[d] = p[3 + d] - p[d];
+            y[d] = p[6 + d] - p[3 + d];
+        }
+        aur_cross3(x, y, z);
+        aur_rad_pose_apply(&self->pose, 0.0, x);
+    } else if (luminaire->flat) {
+        memcpy(z, item->numbers + 3, sizeof z);
+    }
+    if (luminaire->flat)
+        aur_rad_pose_apply(&self->pose, 0.0, z);
+    const double sign = self->pose.inverts ? 1.0 : -1.0;
+    if (!(aur_normalize3(z) > 0.0))
+        return false;
+    if (aur_normalize3(x) > 0.0)
+        aur_cross3(x, z, y);
+    else
+        aur_frame3(z, x, y);
+    for (size_t d = 0; d < 3; ++d)
+        z[d] *= luminaire->flat ? sign : -1.0;
+    aur_cross3(z, x, y);
+    for (size_t d = 0; d < 3; ++d) {
+        luminaire->turn[d][0] = x[d];
+        luminaire->turn[d][1] = y[d];
+        luminaire->turn[d][2] = z[d];
+    }
+    return true;
+}
+
+/* Within the cone, radiance 1: intensities are exact up to interpolation about the normal. Otherwise the edge
+ * is blurred within a degree. */
+static aur_result fill_cone(aur_rad *self, struct aur_rad_luminaire *luminaire) {
+    enum { ABOUT = 360, STEPS = 180, RINGS = 64 };
+    double(*const t)[3] = luminaire->turn;
+    const double half = acos(luminaire->edge) * 180.0 / PI;
+    const double along =
+        -(t[0][2] * luminaire->aim[0] + t[1][2] * luminaire->aim[1] + t[2][2] * luminaire->aim[2]);
+    const double last = luminaire->flat ? 90.0 : 180.0;
+    const bool aligned = along > 1.0 - 1e-9, closed = half >= last - 1e-3;
+    luminaire->plane_count = aligned ? 1 : ABOUT + 1;
+    luminaire->angle_count = !aligned ? STEPS + 1 : RINGS + (closed ? 1 : 3);
+    double *const numbers =
+        aur_arena_allocate(self->scene->arena, (luminaire->plane_count + luminaire->angle_count +
+                                                luminaire->plane_count * luminaire->angle_count) *
+                                                   sizeof *numbers);
+    if (numbers == NULL)
+        return aur_fail_memory(self->error);
+    luminaire->planes = numbers;
+    luminaire->angles = numbers + luminaire->plane_count;
+    luminaire->values = luminaire->angles + luminaire->angle_count;
+    for (size_t i = 0; i < luminaire->plane_count; ++i)
+        luminaire->planes[i] = (double)i;
+    for (size_t i = 0; i < luminaire->angle_count; ++i)
+        luminaire->angles[i] = !aligned        ? last / STEPS * (double)i
+                               : i <= RINGS    ? fmin(half, last) / RINGS * (double)i
+                               : i > RINGS + 1 ? last
+                                               : half + 1e-4;
+    for (size_t i = 0; i < luminaire->plane_count * luminaire->angle_count; ++i) {
+        const size_t ring = i % luminaire->angle_count;
+        const double c = luminaire->planes[i / luminaire->angle_count] * PI / 180.0,
+                     g = luminaire->angles[ring] * PI / 180.0;
+        double cosine = 0.0;
+        for (size_t d = 0; d < 3; ++d)
+            cosine += (sin(g) * (cos(c) * t[d][0] + sin(c) * t[d][1]) - cos(g) * t[d][2]) * luminaire->aim[d];
+        const bool within = aligned ? ring <= RINGS : cosine >= luminaire->edge;
+        luminaire->values[i] = !within ? 0.0 : luminaire->flat ? fmax(cos(g), 0.0) : 1.0;
+    }
+    return AUR_OK;
+}
+
 aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
                                  const aur_rad_material *material) {
-    const struct aur_rad_luminaire *const luminaire = material->luminaire;
+    struct aur_rad_luminaire spot = *material->luminaire;
+    const struct aur_rad_luminaire *const luminaire = &spot;
     aur_nodes *const nodes = self->nodes;
     opening measured;
+    if (spot.spot && !set_frame(self, item, &spot))
+        return fail(self, item, "a spotlight's surface has no normal");
+    const aur_result result = spot.spot ? fill_cone(self, &spot) : AUR_OK;
+    if (result != AUR_OK)
+        return result;
     if (!measure(self, luminaire, item, &measured))
         return fail(
             self, item,
             "a measured lamp is read on a polygon (a rectangle along its axes) or ring with flatcorr, or on "
-            "a sphere with corr");
+            "a sphere with corr; a spotlight on a rectangle, a ring without a hole or a sphere");
     size_t size = 0;
     char *const text = write_ies(luminaire, &measured, &size);
     if (text == NULL)
         return aur_fail_memory(self->error);
-    const double(*const t)[3] = luminaire->turn, *const m = measured.middle;
+    const double *const m = measured.middle;
+    double(*const t)[3] = spot.turn;
     const double matrix[16] = {t[0][0], t[0][1], t[0][2], m[0], t[1][0], t[1][1], t[1][2], m[1],
                                t[2][0], t[2][1], t[2][2], m[2], 0.0,     0.0,     0.0,     1.0};
     aur_xml_node *const emitter = aur_node_object(nodes, self->parent, "emitter", "photometric");
     aur_node_property(nodes, emitter, "string", "text", "%s", text);
     aur_node_numbers(nodes, emitter, "rgb", "color", 3, material->radiance);
+    if (spot.spot)
+        aur_node_property(nodes, emitter, "float", "focus", "%.9g", spot.focus);
     aur_xml_node *const to_world = aur_node_add(nodes, emitter, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
     aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, matrix);

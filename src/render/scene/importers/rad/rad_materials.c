@@ -164,6 +164,7 @@ const aur_rad_row aur_rad_materials[] = {
     {"light", 3, 3, 0, true, true, add_light},
     {"glow", 4, 4, 0, true, true, add_light},
     {"illum", 3, 3, 1, true, true, add_light},
+    {"spotlight", 7, 7, 0, true, true, aur_rad_add_spotlight},
     {"brightfunc", 0, SIZE_MAX, SIZE_MAX, true, false, add_pattern},
     {"brightdata", 0, SIZE_MAX, SIZE_MAX, true, false, aur_rad_add_distribution},
     {.name = NULL},
@@ -188,18 +189,18 @@ static const struct {
     const char *name;
     diffuse_form form;
     size_t numbers; /* minimum count of arguments */
-} modifiers[] = {{"spotlight", NO_FORM, 0},    {"prism1", NO_SURFACE, 0},    {"prism2", NO_SURFACE, 0},
-                 {"plastic2", COAT, 4},        {"metal2", METAL, 4},         {"trans2", SHEET, 8},
-                 {"ashik2", TWO_COLOURS, 8},   {"plasfunc", COAT, 4},        {"metfunc", METAL, 4},
-                 {"transfunc", SHEET_DATA, 6}, {"BRTDfunc", SIDES, 9},       {"plasdata", COAT, 4},
-                 {"metdata", METAL, 4},        {"transdata", SHEET_DATA, 6}, {"BSDF", MATRIX, 0},
-                 {"aBSDF", MATRIX, 0},         {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0},
-                 {"mist", NO_SURFACE, 0},      {"texfunc", NO_FORM, 0},      {"texdata", NO_FORM, 0},
-                 {"colorfunc", NO_FORM, 0},    {"colordata", NO_FORM, 0},    {"colorpict", NO_FORM, 0},
-                 {"colortext", NO_FORM, 0},    {"brighttext", NO_FORM, 0},   {"mixfunc", MIXTURE, 0},
-                 {"mixdata", MIXTURE, 0},      {"mixpict", MIXTURE, 0},      {"mixtext", MIXTURE, 0},
-                 {"spectrum", NO_FORM, 0},     {"specfile", NO_FORM, 0},     {"specfunc", NO_FORM, 0},
-                 {"specdata", NO_FORM, 0},     {"specpict", NO_FORM, 0}};
+} modifiers[] = {{"prism1", NO_SURFACE, 0},    {"prism2", NO_SURFACE, 0},     {"plastic2", COAT, 4},
+                 {"metal2", METAL, 4},         {"trans2", SHEET, 8},          {"ashik2", TWO_COLOURS, 8},
+                 {"plasfunc", COAT, 4},        {"metfunc", METAL, 4},         {"transfunc", SHEET_DATA, 6},
+                 {"BRTDfunc", SIDES, 9},       {"plasdata", COAT, 4},         {"metdata", METAL, 4},
+                 {"transdata", SHEET_DATA, 6}, {"BSDF", MATRIX, 0},           {"aBSDF", MATRIX, 0},
+                 {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0}, {"mist", NO_SURFACE, 0},
+                 {"texfunc", NO_FORM, 0},      {"texdata", NO_FORM, 0},       {"colorfunc", NO_FORM, 0},
+                 {"colordata", NO_FORM, 0},    {"colorpict", NO_FORM, 0},     {"colortext", NO_FORM, 0},
+                 {"brighttext", NO_FORM, 0},   {"mixfunc", MIXTURE, 0},       {"mixdata", MIXTURE, 0},
+                 {"mixpict", MIXTURE, 0},      {"mixtext", MIXTURE, 0},       {"spectrum", NO_FORM, 0},
+                 {"specfile", NO_FORM, 0},     {"specfunc", NO_FORM, 0},      {"specdata", NO_FORM, 0},
+                 {"specpict", NO_FORM, 0}};
 
 enum { MODIFIERS = sizeof modifiers / sizeof modifiers[0] };
 

@@ -159,8 +159,9 @@ typedef struct aur_rad_bsdf_means {
  * FORMAT, UNSUPPORTED for files without such matrices. */
 aur_result aur_rad_bsdf_read(aur_rad *self, aur_rad_word name, aur_rad_bsdf_means *means);
 
-/* brightdata with the distribution of a photometric luminaire; and the luminaire for a surface with that
- * light. */
+/* brightdata with the distribution of a photometric luminaire, or a spotlight; and the luminaire for a
+ * surface with that light. */
 aur_result aur_rad_add_distribution(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material);
+aur_result aur_rad_add_spotlight(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material);
 aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
                                  const aur_rad_material *material);

@@ -471,6 +471,31 @@ static aur_result add_lights(reading *shared, const char *path) {
     return result;
 }
 
+/* The camera of a Radiance view in the options replaces the scene's cameras. */
+static aur_result replace_camera(reading *shared) {
+    const char *const view = shared->options->stage.camera;
+    aur_xml_node *const root = shared->document->tree.root;
+    aur_nodes nodes = {.tree = &shared->document->tree,
+                       .variables = &shared->variables,
+                       .location = {.file = "--camera", .line = 1},
+                       .error = shared->error};
+    if (view == NULL || strncmp(view, "-v", 2) != 0)
+        return AUR_OK;
+    aur_xml_node *last = NULL;
+    for (aur_xml_node *child = root->first_child, *next; child != NULL; child = next) {
+        next = child->next;
+        const bool is_camera = strcmp(child->tag, "sensor") == 0;
+        if (is_camera && last != NULL)
+            last->next = next;
+        else if (is_camera)
+            root->first_child = next;
+        else
+            last = child;
+    }
+    root->last_child = last;
+    return aur_rad_read_view(&nodes, root, strlen(view), view);
+}
+
 /* For files that Radiance scenes reference other than by inclusion. */
 static aur_result find_file(void *context, aur_location location, const char *name, char **path,
                             aur_error *error) {
@@ -502,6 +527,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         place(&shared, 0, NULL);
     for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
         result = read_further(&shared, path, i);
+    if (result == AUR_OK)
+        result = replace_camera(&shared);
     if (result == AUR_OK)
         result = add_lights(&shared, path);
     if (result == AUR_OK)
