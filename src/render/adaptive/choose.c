@@ -183,10 +183,17 @@ static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
     adaptive->bias[measure] = bias;
 }
 
-void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
-    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) /* the requested one last */
+/* The candidate's weights remain those of the requested measure. */
+static void bound_others(aur_adaptive *adaptive) {
+    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k)
         bound_bias_by(adaptive,
                       (aur_error_measure)((adaptive->target.measure + k) % AUR_ERROR_MEASURE_COUNT));
+    aur_candidate_weigh(&adaptive->candidate, adaptive->target.measure);
+}
+
+void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
+    bound_bias_by(adaptive, adaptive->target.measure);
+    bound_others(adaptive);
 }
 
 /* Adds blocks where the differences between them dominate, else samples. */
@@ -223,10 +230,18 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
+/* The square of the largest bias. What the noise leaves at the end may be more than was reserved. */
+static double most_bias(const aur_adaptive *adaptive, bool last) {
+    const double error = adaptive->target.error, bound = adaptive->candidate.bound;
+    const double reserved = pow(BIAS_PART * error, 2.0);
+    return last && bound < error ? fmax(reserved, error * error - bound * bound) : reserved;
+}
+
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const double room = pow(BIAS_PART * adaptive->target.error, 2.0);
+    const double room = most_bias(adaptive, last);
     const bool bounded = adaptive->target.error > 0.0;
+    bool grown = false;
     *again = false;
     adaptive->unchecked = true;
     if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_black(&adaptive->candidate)) {
@@ -241,8 +256,12 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
         const aur_result result = correct(adaptive, error);
         if (result != AUR_OK)
             return result;
+        grown = true;
     }
-    aur_adaptive_bound_bias(adaptive);
+    if (!grown && !last) /* by the values of the round; its last check has nothing new */
+        bound_bias_by(adaptive, adaptive->target.measure);
+    if (grown || !last)
+        bound_others(adaptive);
     adaptive->unchecked = false;
     const bool too_large = bounded && bias->low > room;
     *again = too_large || (bounded && last && bias->high > room);
