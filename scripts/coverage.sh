@@ -28,7 +28,7 @@ parsers=(
   'radiosity solutions|radiosity|src/render/radiosity/file.c'
   'photon maps of the cache|photons|src/render/photons/irradiance_file.c'
   'weight tables|weight_table|src/points/quadrature/tables/weight_table_file.c'
-  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/viewfactors/mesh_places.c'
+  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/viewfactors/mesh_sources.c'
   'weather (EPW)|weather|src/lighting/daylight/weather.c'
   'names of sets and keys|set scene options|src/points/base/parameters.c src/points/base/names.c'
   'options of the program|options|src/program/cli/options.c src/program/cli/quantity.c'

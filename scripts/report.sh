@@ -2,7 +2,7 @@
 # report.sh RESULTS: keeps the tables of a full run of the lab (AUREOLE_ISA=avx2 aureole lab run NAME... -o RESULTS) in
 # docs/report/results, which aureole lab check compares runs with: the tables in NAME, those of the quick form, which it runs by the
 # program of build/release, in NAME/quick unless they are equal, and NAME-stamp.csv by lab_stamps.py. Times and images stay in RESULTS;
-# the pages of the papers take their plots from there by papers_pictures.sh, and their numbers by lab_numbers.py fill.
+# the pages of the papers take their plots from there by papers_figures.sh, and their numbers by lab_numbers.py fill.
 # report.sh --quick NAME...: keeps the quick forms alone, where the full form takes too long for now, and marks the tables as outdated.
 set -eu
 quick=$(mktemp -d)

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pictures.h"
+#include "images.h"
 
 enum { EXPONENTS = 6, SHARES = 3, MOST_SCRAMBLES = 16, SETS = 3 };
 

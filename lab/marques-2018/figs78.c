@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pictures.h"
+#include "images.h"
 
 enum { MOST_SIZES = 6, MOST_METHODS = 12, MOST_SCRAMBLES = 8 };
 

@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pictures.h"
+#include "images.h"
 
 enum { MOST_SCRAMBLES = 16, MOST_SETS = 4 };
 

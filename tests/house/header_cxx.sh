@@ -15,6 +15,6 @@ while read -r compiler standard program; do
 done <<'END'
 g++ c++17 points
 clang++ c++20 points
-g++ c++20 picture
+g++ c++20 image
 END
 exit $status

@@ -8,7 +8,7 @@ import traceback
 import execution  # noqa: F401  each file adds its rows
 import integrals  # noqa: F401
 import numbers_of_points  # noqa: F401
-import place  # noqa: F401
+import position  # noqa: F401
 import writing  # noqa: F401
 from relations import ROWS
 from runs import Context

@@ -79,7 +79,7 @@ enum { WATCH_LAYER_LIMIT = 80 };
  * number of layers, at most WATCH_LAYER_LIMIT. */
 size_t watch_layers(const aur_image *image, watch_layer layers[WATCH_LAYER_LIMIT]);
 
-/* A layer of an image as JSON for `unpack` of src/program/report/page/pictures.js. */
+/* A layer of an image as JSON for `unpack` of src/program/report/page/images.js. */
 char *watch_layer_json(const aur_image *image, const watch_layer *layer, size_t *size);
 
 /* Sends the image to a viewer on the network with the protocol of tev (Müller), which pbrt-v4 uses too:

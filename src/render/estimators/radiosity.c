@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/radiosity/picture.h"
+#include "render/radiosity/image.h"
 
 typedef struct radiosity_data {
     aur_radiosity_image image; /* first: what aur_radiosity_tile reads */

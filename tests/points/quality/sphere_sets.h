@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "own_points.h"
 #include "points/base/random.h"
 #include "points/base/vector.h"
+#include "test_points.h"
 
 static inline test_points sphere_points(size_t count) {
     return (test_points){.domain = AUR_DOMAIN_SPHERE,

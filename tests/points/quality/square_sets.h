@@ -1,8 +1,8 @@
 /* Points of the square and the cube for the tests of the measures. Include check.h first. */
 #pragma once
 
-#include "own_points.h"
 #include "points/base/random.h"
+#include "test_points.h"
 
 static inline double measured(const char *metric, const test_points *points) {
     double value = NAN;

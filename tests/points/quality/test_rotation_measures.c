@@ -3,9 +3,9 @@
 #include <aureole/rotations.h>
 #include <string.h>
 
-#include "own_points.h"
 #include "points/base/random.h"
 #include "points/base/vector.h"
+#include "test_points.h"
 
 static test_points rotations(size_t count) {
     return (test_points){.domain = AUR_DOMAIN_ROTATIONS,

@@ -1,5 +1,5 @@
 /* Metrics against closed forms, differences, downsampling, selection. */
-#include "picture.h"
+#include "test_images.h"
 
 static void check_metric(const aur_image *reference, const aur_image *image, aur_image_metric metric,
                          const double expected[4]) {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture.h"
+#include "test_images.h"
 
 static double error_by(aur_error_measure measure, const aur_image *reference, const aur_image *image) {
     double value = -1.0;

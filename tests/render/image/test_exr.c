@@ -1,6 +1,6 @@
 /* EXR: written files are read back; files of OpenEXR in all variants are read. */
 #include "foreign.h"
-#include "picture.h"
+#include "test_images.h"
 
 static void test_float_round_trip_is_exact(void **state) {
     (void)state;

@@ -1,6 +1,6 @@
 /* LDR-FLIP against the authors' own program and closed forms. */
-#include "picture.h"
 #include "render/image/format.h"
+#include "test_images.h"
 
 /* An image from display values in [0,1]: pattern number `pattern` at column x of row y, channel c. */
 static aur_image *pattern_image(size_t width, size_t height, double (*value)(size_t, size_t, size_t)) {

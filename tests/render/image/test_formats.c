@@ -3,8 +3,8 @@
 #include <stb_image.h>
 #include <stb_image_write.h>
 
-#include "picture.h"
 #include "render/image/format.h"
+#include "test_images.h"
 
 static void assert_read_fails(const char *what, size_t size, const void *data, aur_result expected) {
     aur_image *image;

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "hand_exr.h"
-#include "picture.h"
+#include "test_images.h"
 
 enum { WIDTH = 16, HEIGHT = 12 };
 

@@ -1,6 +1,6 @@
 /* The curves between radiance and screen. */
-#include "picture.h"
 #include "render/image/format.h"
+#include "test_images.h"
 
 static void test_srgb(void **state) {
     (void)state;

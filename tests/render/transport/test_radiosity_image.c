@@ -4,7 +4,7 @@
 
 #include "points/base/random.h"
 #include "render/image/format.h"
-#include "render/radiosity/picture.h"
+#include "render/radiosity/image.h"
 
 #define WALL                                                                                                 \
     "<bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf>"                                      \

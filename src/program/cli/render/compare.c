@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "program/cli/render/picture.h"
+#include "program/cli/render/image_input.h"
 
 typedef struct compare_options {
     cli_list metrics;

@@ -1,7 +1,7 @@
 /* aureole convert: converts between image formats. */
 #include <string.h>
 
-#include "program/cli/render/picture.h"
+#include "program/cli/render/image_input.h"
 
 typedef struct convert_options {
     aur_image_write_options write;

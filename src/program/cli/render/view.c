@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "program/cli/render/picture.h"
+#include "program/cli/render/image_input.h"
 
 typedef struct view_options {
     const char *output;

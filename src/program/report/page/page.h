@@ -35,7 +35,7 @@ typedef struct report_image {
     bool quick;            /* fast compression, with a larger result */
 } report_image;
 
-/* Writes an image as JSON for `unpack` of pictures.js. Errors: ARGUMENT without color, MEMORY. */
+/* Writes an image as JSON for `unpack` of images.js. Errors: ARGUMENT without color, MEMORY. */
 aur_result report_put_image(FILE *page, const report_image *viewed, aur_error *error);
 
 /* A viewer of images of one scene. `exposure` (stops) is the initial exposure. With a `unit` (else NULL) the

@@ -45,7 +45,7 @@ struct aur_rad_material {
     aur_xml_node *bsdf, *interior, *exterior;
     double radiance[3]; /* radiance of emitters, a factor of the sky's */
     aur_rad_sky *sky;   /* in the scene's arena: the pattern of an emitter, or a pattern by itself; or NULL */
-    const struct aur_rad_luminaire *luminaire; /* the same for a photometric luminaire (rad_lamp.c) */
+    const struct aur_rad_luminaire *luminaire; /* the same for a photometric luminaire (rad_luminaire.c) */
     /* For unsupported materials, in the scene's arena: the error for the first surface that uses it. */
     const aur_error *unsupported;
     bool reported;

@@ -1,4 +1,4 @@
-#include "pictures.h"
+#include "images.h"
 
 #include <aureole/statistics.h>
 #include <math.h>

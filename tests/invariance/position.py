@@ -61,19 +61,19 @@ def radiosities(context, model, seeds, *options):
 
 MODELS = {"room": models.room, "street": models.street}
 for _name, _make in MODELS.items():
-    @relation("place", "irradiance", f"{_name} moved to map coordinates", "intervals")
+    @relation("position", "irradiance", f"{_name} moved to map coordinates", "intervals")
     def _(context, make=_make):
         return moved(context, lambda m, seeds: irradiances(context, m, seeds), make())
 
-    @relation("place", "irradiance", f"{_name} as .rad moved", "intervals")
+    @relation("position", "irradiance", f"{_name} as .rad moved", "intervals")
     def _(context, make=_make):
         return moved(context, lambda m, seeds: irradiances(context, m, seeds, models.write_rad, "place.rad"), make())
 
-    @relation("place", "render", f"{_name} moved, path", "intervals")
+    @relation("position", "render", f"{_name} moved, path", "intervals")
     def _(context, make=_make):
         return moved(context, lambda m, seeds: images(context, m, seeds, 64, "--integrator", "path"), make())
 
-    @relation("place", "render", f"{_name} moved, camera and all, from another unit", "intervals")
+    @relation("position", "render", f"{_name} moved, camera and all, from another unit", "intervals")
     def _(context, make=_make):
         here = images(context, make(), range(context.seeds), 64, "--integrator", "path")
         there = images(context, make().scaled(1000.0).moved((3e7, 3e6, 0.0)), range(100, 100 + context.seeds), 64, "--integrator", "path",
@@ -81,13 +81,13 @@ for _name, _make in MODELS.items():
         return same_means(here, there)
 
 
-@relation("place", "render", "room moved, finalgather", "intervals")
+@relation("position", "render", "room moved, finalgather", "intervals")
 def _(context):
     gather = "finalgather:photons=20000,diffuse_samples=16,glossy_samples=8"
     return moved(context, lambda m, seeds: images(context, m, seeds, 16, "--integrator", gather), models.room())
 
 
-@relation("place", "render", "room moved, radiosity", "intervals")
+@relation("position", "render", "room moved, radiosity", "intervals")
 def _(context):
     return moved(context, lambda m, seeds: images(context, m, seeds, 8, "--integrator", "radiosity"), models.room())
 
@@ -98,13 +98,13 @@ SLIPPED = 1.3e-5
 CLOSED = 1e-8  # what the coordinates of UTM leave of a double for facets of a metre
 
 
-@relation("place", "viewfactors", "plates moved: closed forms", "1e-8")
+@relation("position", "viewfactors", "plates moved: closed forms", "1e-8")
 def _(context):
     here = closed_factors(context, models.plates())
     return worst(nearly_equal(here, closed_factors(context, models.plates().moved(offset)), 0.0, CLOSED) for offset in PLACES.values())
 
 
-@relation("place", "viewfactors", "plates as glTF, moved by their nodes: closed forms", "1e-8")
+@relation("position", "viewfactors", "plates as glTF, moved by their nodes: closed forms", "1e-8")
 def _(context):
     here = closed_factors(context, models.plates())
 
@@ -118,21 +118,21 @@ def _(context):
 
 
 for _name, _make in MODELS.items():
-    @relation("place", "viewfactors", f"{_name} moved: sampled factors and sky", "intervals")
+    @relation("position", "viewfactors", f"{_name} moved: sampled factors and sky", "intervals")
     def _(context, make=_make):
         return moved(context, lambda m, seeds: sampled_factors(context, m, seeds, "--rays", "512"), make())
 
-    @relation("place", "viewfactors --rays-only", f"{_name} moved", "intervals")
+    @relation("position", "viewfactors --rays-only", f"{_name} moved", "intervals")
     def _(context, make=_make):
         return moved(context, lambda m, seeds: sampled_factors(context, m, seeds, "--rays", "512", "--rays-only"), make())
 
     for _free in ((), ("--matrix-free",)):
-        @relation("place", " ".join(("viewfactors --radiosity", *_free)), f"{_name} moved", "intervals")
+        @relation("position", " ".join(("viewfactors --radiosity", *_free)), f"{_name} moved", "intervals")
         def _(context, make=_make, free=_free):
             return moved(context, lambda m, seeds: radiosities(context, m, seeds, *free), make())
 
 for _mode in ((), ("--rays-only",), ("--matrix-free",)):
-    @relation("place", " ".join(("viewfactors --radiosity", *_mode)), "a rug's gap of 1e-5 of the floor made 1e-8 to 1e-6, turned and moved", "intervals")
+    @relation("position", " ".join(("viewfactors --radiosity", *_mode)), "a rug's gap of 1e-5 of the floor made 1e-8 to 1e-6, turned and moved", "intervals")
     def _(context, mode=_mode):
         # Less than 6.5 of the gap goes by its edges; without a matrix reflections end at .02 / sqrt(512) of the light.
         here = radiosities(context, models.rug(1e-5).turned(), range(context.seeds), *mode)
@@ -143,22 +143,22 @@ for _mode in ((), ("--rays-only",), ("--matrix-free",)):
 CHANGES = {"turned": lambda m: m.turned(), "mirrored": lambda m: m.mirrored(), "in millimetres": lambda m: m.scaled(1000.0),
            "in kilometres": lambda m: m.scaled(0.001)}
 for _change, _map in CHANGES.items():
-    @relation("place", "irradiance", f"room {_change}", "intervals")
+    @relation("position", "irradiance", f"room {_change}", "intervals")
     def _(context, change=_map):
         return same_means(irradiances(context, models.room(), range(context.seeds)),
                           irradiances(context, change(models.room()), range(100, 100 + context.seeds)))
 
-    @relation("place", "viewfactors", f"plates {_change}: closed forms", "1e-8")
+    @relation("position", "viewfactors", f"plates {_change}: closed forms", "1e-8")
     def _(context, change=_map):
         return nearly_equal(closed_factors(context, models.plates()), closed_factors(context, change(models.plates())), 0.0, CLOSED)
 
-    @relation("place", "viewfactors", f"room {_change}: sampled factors", "intervals")
+    @relation("position", "viewfactors", f"room {_change}: sampled factors", "intervals")
     def _(context, change=_map):
         return same_means(sampled_factors(context, models.room(), range(context.seeds), "--rays", "512"),
                           sampled_factors(context, change(models.room()), range(100, 100 + context.seeds), "--rays", "512"), CLOSED, SLIPPED)
 
 
-@relation("place", "irradiance", "a far speck is added to the room", "intervals")
+@relation("position", "irradiance", "a far speck is added to the room", "intervals")
 def _(context):
     room = models.room()
     speck = models.Surface("speck", [[(3e3, 0.0, 0.0), (3e3, 1.0, 0.0), (3e3, 0.0, 1.0)]])
@@ -174,7 +174,7 @@ FURNACE = """<scene version="3.0.0"><integrator type="path"/><sensor type="persp
 """
 
 
-@relation("place", "render", "a white furnace in a sphere or cube moved by up to 1e7", "mean > .999")
+@relation("position", "render", "a white furnace in a sphere or cube moved by up to 1e7", "mean > .999")
 def _(context):
     least = 1.0
     for offset in (0.0, 1e3, 1e5, 1e6, 1e7):

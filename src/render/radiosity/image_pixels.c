@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "points/base/random.h"
-#include "render/radiosity/picture.h"
+#include "render/radiosity/image.h"
 
 enum { ROUND = 4, HALTON_DIMENSIONS = 4 };
 

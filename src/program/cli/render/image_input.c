@@ -1,4 +1,4 @@
-#include "program/cli/render/picture.h"
+#include "program/cli/render/image_input.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# papers_pictures.sh PROGRAM RESULTS...: brings the plots and images that the pages in docs/papers show, from folders of results of the
+# papers_figures.sh PROGRAM RESULTS...: brings the plots and images that the pages in docs/papers show, from folders of results of the
 # lab (lab run -o RESULTS). A page names what it shows by its link: pictures/NAME.svg is a plot of the report, pictures/NAME.png a
 # image of an experiment, blanks and the like in its name as in the results. Those that are in no folder stay as they are.
 set -eu

@@ -3,7 +3,7 @@
 
 #include "points/base/random.h"
 #include "points/base/vector3d.h"
-#include "render/radiosity/picture.h"
+#include "render/radiosity/image.h"
 #include "render/trace/packet.h"
 
 /* --- solid angles */

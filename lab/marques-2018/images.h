@@ -1,8 +1,8 @@
 /* Shared by the experiments on weights in rendered images: a scene gathered on the same photon map and the
  * same primary hits with any weights, and errors over the pixels whose surface has both a diffuse and a
  * glossy lobe. Elsewhere the weighting methods hardly differ. */
-#ifndef LAB_MARQUES_2018_PICTURES_H
-#define LAB_MARQUES_2018_PICTURES_H
+#ifndef LAB_MARQUES_2018_IMAGES_H
+#define LAB_MARQUES_2018_IMAGES_H
 
 #include "program/lab/lab.h"
 

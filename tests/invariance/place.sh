@@ -1,3 +1,0 @@
-#!/usr/bin/env bash
-# Answers do not depend on where a model stands, how it is turned, or its unit (tests/invariance/place.py).
-exec python3 "$2/tests/invariance/invariance.py" "$1" "$2" place ${AUREOLE_FULL_INVARIANCE:+full}
