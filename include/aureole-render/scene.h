@@ -187,6 +187,28 @@ AUR_EXPERIMENTAL aur_result aur_scene_get_description(const aur_scene *scene,
                                                       aur_scene_description *description, aur_error *error)
     AUR_NONNULL(1, 2);
 
+/* A photometric file (IES LM-63 or EULUMDAT); the caller sets `size` to that of the struct. */
+typedef struct aur_luminaire_description {
+    size_t size;
+    const char *format;    /* "IES LM-63", "EULUMDAT" */
+    const char *type;      /* of the goniometer: "A", "B" or "C" */
+    const char *symmetry;  /* "rotational", "quadrants", "plane C 0-180", "plane C 90-270", "vertical plane"
+                            * (types A and B) or "none" */
+    size_t planes, angles; /* stored in the file */
+    double lumens;         /* integral of the intensities over all directions */
+    double lamp_lumens;    /* of the lamps, as stated; 0: absolute photometry */
+    double peak;           /* largest intensity, candela */
+    double length, width;  /* of the luminous opening, along C 0 and C 90, metres */
+    double height;         /* metres */
+    bool round;            /* the opening is an ellipse */
+} aur_luminaire_description;
+
+/* Reads `bytes` bytes of `data`, or the file `path` if data is NULL; `path` is also for messages. Errors:
+ * OPEN, MEMORY, FORMAT with the line, ARGUMENT (size). */
+AUR_EXPERIMENTAL aur_result aur_luminaire_describe(const char *path, size_t bytes, const void *data,
+                                                   aur_luminaire_description *description, aur_error *error)
+    AUR_NONNULL(1, 4);
+
 /* Effect of the clip planes, from camera rays distributed evenly over the image. The caller sets `size` to
  * the size of the struct. */
 typedef struct aur_clip_description {

@@ -45,6 +45,22 @@ done
 "$aureole" irradiance -q open.rad --illuminance radiance -n 64 --sensors points.pts --lamp lamp.ies@0,0,2 --reflected map --particles 1000 -o map.csv &&
   near map.csv 250 $side $half 0
 
+# What a file is: the flux of 1 cd in all directions, of a lamp of 2000 lm by EULUMDAT (1 cd per 1000 lm), and of the first one by its planes.
+{ printf 'Maker\n1\n1\n1\n0\n2\n180\nreport\nname\nnumber\nfile\ndate\n1200\n300\n80\n1200\n300\n0\n0\n0\n0\n100\n100\n1\n0\n1\n1\ntype\n2000\nwhite\n80\n20\n'
+  printf '0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n180\n1\n1\n'; } >panel.ldt
+# described FILE FORMAT SYMMETRY LUMENS LAMP_LUMENS PEAK OPENING LENGTH WIDTH
+described() {
+  "$aureole" info --format csv $1 >info.csv || fail "info $1"
+  awk -F, -v want="$*" 'NR == 2 { split(want, w, " "); gsub(/ /, "_"); d = $7 / w[4] - 1
+    exit !($1 == "luminaire" && $2 == w[2] && $3 == "C" && $4 == w[3] && d * d < 1e-12 && $8 == w[5] && $9 == w[6] && $10 == w[7] && $11 + 0 == w[8] && $12 + 0 == w[9]) }' info.csv || fail "$1: $(cat info.csv)"
+}
+sphere=12.566370614359172
+described panel.ies IES_LM-63 rotational $sphere 1000 1 rectangle 2 1
+described panel.ldt EULUMDAT rotational $(awk "BEGIN { printf \"%.12g\", 2 * $sphere }") 2000 2 rectangle 1.2 .3
+described lamp.ies IES_LM-63 quadrants $(awk 'BEGIN { pi = atan2(0, -1); printf "%.12g", 2 * pi * 750 * (1 - 2 / pi) }') 1000 1000 point 0 0
+head -20 panel.ldt >half.ldt
+refused "half.ldt:20:" info half.ldt
+
 refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies
 refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3

@@ -122,6 +122,12 @@ static aur_scene *scenes(void) {
     require(d.shapes == 2 && d.width == 8, "aur_scene_get_description");
     d.size = 0;
     refuse(aur_scene_get_description(scene, &d, &error), AUR_ERROR_ARGUMENT, &error);
+    static const char lamp[] = "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0 1 1 9\n0 180\n0\n1 1\n";
+    aur_luminaire_description luminaire = {.size = sizeof luminaire};
+    accept(aur_luminaire_describe("calls.ies", sizeof lamp - 1, lamp, &luminaire, &error), &error);
+    require(fabs(luminaire.lumens - 12.566370614) < 1e-6 && luminaire.lamp_lumens == 1000.0,
+            "aur_luminaire_describe");
+    refuse(aur_luminaire_describe("calls.ies", 5, lamp, &luminaire, &error), AUR_ERROR_FORMAT, &error);
     return scene;
 }
 

@@ -154,13 +154,15 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_info = {
     .name = "info",
-    .summary = "print the contents of a scene, an image, a file of points or a table of weights",
+    .summary = "print the contents of a scene, an image, a luminaire's file, points or a table of weights",
     .notes = "'-' is standard input. The content determines the kind of file, except for models (.glb, .obj, "
-             "...) and .rad, whose extension does. Scenes: sizes, bounding box (scene units), film and "
+             "...), .ldt and .rad, whose extension does. Luminaires: flux, "
+             "type, symmetry, opening (metres). Scenes: sizes, bounding box (scene units), film and "
              "plugins. Images and points: range and mean of the finite values of each channel or coordinate.",
     .too_few = "expected one file",
     .too_many = "expected one file",
-    .operands = {{"FILE", "a scene, an image, points or a table of weights", .content = "file"}},
+    .operands = {{"FILE", "a scene, an image, a luminaire (.ies, .ldt), points or a table of weights",
+                  .content = "file"}},
     .groups = {{cli_definitions_option, offsetof(cli_info_options, definitions)},
                {cli_model_light_option, offsetof(cli_info_options, definitions)},
                {cli_format_option, offsetof(cli_info_options, common)},

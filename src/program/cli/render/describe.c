@@ -1,9 +1,11 @@
-/* Describes a scene or an image for `aureole info`. */
+/* Describes a scene, an image or a luminaire for `aureole info`. */
 #include <aureole-render/image.h>
 #include <aureole-render/render.h>
 #include <aureole-render/scene.h>
 #include <ctype.h>
+#include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "program/cli/points/point_source.h"
 #include "program/lab/gather.h"
@@ -77,6 +79,38 @@ static int describe_image(const cli_info_input *input, const char *format, const
     return cli_finish(table, options->common.format);
 }
 
+static int describe_luminaire(const cli_info_input *input, const cli_info_options *options) {
+    aur_luminaire_description d = {.size = sizeof d};
+    aur_error error;
+    if (aur_luminaire_describe(input->path, input->size, input->data, &d, &error) != AUR_OK)
+        return cli_fail(&error);
+    report_table *const facts = report_create(0, NULL);
+    report_fact_text(facts, "kind", "luminaire");
+    report_fact_text(facts, "format", d.format);
+    report_fact_text(facts, "type", d.type);
+    report_fact_text(facts, "symmetry", d.symmetry);
+    report_fact_number(facts, "planes", (double)d.planes);
+    report_fact_number(facts, "angles", (double)d.angles);
+    report_fact_number(facts, "lumens", d.lumens);
+    report_fact_number(facts, "lamp_lumens", d.lamp_lumens > 0.0 ? d.lamp_lumens : NAN);
+    report_fact_number(facts, "peak_candela", d.peak);
+    report_fact_text(facts, "opening",
+                     !(d.length + d.width > 0.0) ? "point"
+                     : d.round                   ? "ellipse"
+                                                 : "rectangle");
+    report_fact_number(facts, "length", d.length);
+    report_fact_number(facts, "width", d.width);
+    report_fact_number(facts, "height", d.height);
+    return cli_finish(facts, options->common.format);
+}
+
+/* By the extension, or the first words of LM-63. */
+static bool is_luminaire(const char *path, size_t size, const char *start) {
+    const char *const dot = strrchr(path, '.');
+    return (size >= 5 && (memcmp(start, "IESNA", 5) == 0 || memcmp(start, "TILT=", 5) == 0)) ||
+           (dot != NULL && (strcasecmp(dot, ".ies") == 0 || strcasecmp(dot, ".ldt") == 0));
+}
+
 /* XML begins with '<', possibly after a byte order mark and white space. */
 static bool is_xml(size_t size, const char *text) {
     size_t i = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
@@ -90,6 +124,8 @@ bool cli_describe_rendered(const cli_info_input *input, size_t size, const char 
     const char *const format = aur_image_format_of(size, start);
     if (format != NULL)
         *status = describe_image(input, format, options);
+    else if (is_luminaire(input->path, size, start))
+        *status = describe_luminaire(input, options);
     else if (is_xml(size, start) || aur_scene_is_name(input->path))
         *status = describe_scene(input, options);
     else

@@ -343,8 +343,8 @@ aur_result aur_photometry_parse(const char *path, size_t size, const char *data,
                                 aur_error *error) {
     *photometry = (aur_photometry){.type = AUR_PHOTOMETRIC_C};
     reader self = {path, data, data + size, 0, error};
-    const bool ies = is_ies(size, data);
-    aur_result result = ies ? read_ies(&self, photometry) : read_eulumdat(&self, photometry);
+    photometry->ies = is_ies(size, data);
+    aur_result result = photometry->ies ? read_ies(&self, photometry) : read_eulumdat(&self, photometry);
     if (result == AUR_OK)
         result = check_range(&self, photometry);
     if (result == AUR_OK && !(aur_photometry_flux(photometry) > 0.0))

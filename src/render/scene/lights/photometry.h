@@ -15,6 +15,7 @@ typedef enum aur_photometric_type {
  * 0 to 360; `angle` is gamma, 0 at nadir. Types B and A: horizontal and vertical, -90 to 90 each. */
 typedef struct aur_photometry {
     aur_photometric_type type;
+    bool ies; /* LM-63; false: EULUMDAT */
     size_t plane_count, angle_count;
     double *planes, *angles; /* ascending; one allocation for both arrays and the table */
     float *candela;          /* [plane_count][angle_count], with all factors of the file applied */
