@@ -297,6 +297,12 @@ AUR_EXPERIMENTAL aur_result aur_weight_table_build(const aur_oswa_options *optio
                                                    const aur_weight_table_grid *grid, size_t threads,
                                                    const aur_progress *progress, aur_weight_table **table,
                                                    aur_error *error) AUR_NONNULL(1, 5);
+/* The same table, read from the cache of earlier runs where it is there; else it is built and stored there.
+ */
+AUR_EXPERIMENTAL aur_result aur_weight_table_find(const aur_oswa_options *options,
+                                                  const aur_weight_table_grid *grid, size_t threads,
+                                                  const aur_progress *progress, aur_weight_table **table,
+                                                  aur_error *error) AUR_NONNULL(1, 5);
 AUR_EXPERIMENTAL void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
 
 /* Saves and loads a file with version, options, hash of the patterns and checksum. Loading a file of another
@@ -320,6 +326,19 @@ AUR_EXPERIMENTAL size_t aur_weight_table_rotations(const aur_weight_table *table
  * lobe: mirror_count): one for each angle, roughness and rotation. A clipped table has two for each piece of
  * an interval, and pieces end where a sample crosses the horizon. */
 AUR_EXPERIMENTAL size_t aur_weight_table_rows(const aur_weight_table *table) AUR_NONNULL(1);
+/* For renderers, which store rows in another layout: the weights of one row, below that number, of the
+ * first lobe, if it has samples, and then of the mirror lobe, each of integral 1. Owned by the table. */
+AUR_EXPERIMENTAL const float *aur_weight_table_row(const aur_weight_table *table, size_t row) AUR_NONNULL(1);
+/* The row r below an angle (clamped to [0, pi/2]); the weights at the angle are (1 - *part) times row r plus
+ * *part times row r + 1. `slot` is the index of the roughness times the number of rotations, plus that of the
+ * rotation; it must be in the table. */
+AUR_EXPERIMENTAL size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
+                                                float *part) AUR_NONNULL(1, 4);
+/* The uniform directions xyz[3 * mirror_count] of the hemisphere that the table maps to the mirror lobe
+ * before it applies the turns: of a GGX lobe, the points with which visible normals are sampled. `capacity`
+ * counts doubles. Errors: CAPACITY. */
+AUR_EXPERIMENTAL aur_result aur_weight_table_uniform(const aur_weight_table *table, size_t capacity,
+                                                     double *xyz, aur_error *error) AUR_NONNULL(1, 3);
 /* The merged samples xyz[3 * size] of a rotation at an angle in [0, pi/2] and, in a table of several
  * roughnesses, the roughness `alpha` (otherwise ignored); their turns are aur_oswa_turns of the options'
  * seed. `capacity` counts doubles. Errors: ARGUMENT for another angle, a roughness or a rotation that is not

@@ -6,7 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <aureole/quadrature.h>
+
 #include "levels.h"
+#include "weighted.h"
 
 /* Parameters, each a field of lab_gather_settings. */
 #define LAB_FIELD(type_, name_, field_, default_, help_)                                                     \
@@ -34,10 +37,10 @@ static const aur_key keys[] = {
     {LAB_CHOICE("density", gather.density, "optimal (weights=equal: same)",
                 "directions follow the lobe, or its power 2/(s+1)", "same", "optimal"),
      .computed = true},
-    {LAB_CHOICE("weights", gather.weights, "ratio", "how samples are weighed (Marques 2018, 2019)", "ratio",
-                "equal", "osw", "oswa", "mis", "oswa-solve")},
+    {LAB_CHOICE("weights", weights, "ratio", "how samples are weighed (Marques 2018, 2019)", "ratio", "equal",
+                "osw", "oswa", "mis", "oswa-solve")},
     {LAB_BOOLEAN("clip", gather.clip, "true", "glossy lobes end at the surface's horizon")},
-    {LAB_REAL("regularization", gather.regularization, 0.0, 1e6, "1e-6 (oswa-solve: 0.5)",
+    {LAB_REAL("regularization", regularization, 0.0, 1e6, "1e-6 (oswa-solve: 0.5)",
               "added to the diagonal of optimal weights' systems"),
      .computed = true},
     {LAB_REAL("smoothness", gather.smoothness, 1.0, 2.0, "1.5", "s of the optimal weights and density"),
@@ -68,7 +71,34 @@ static const aur_key keys[] = {
 };
 
 /* The lab's options; the others have the library's defaults. */
-static const lab_gather_settings initial = {.criterion = LAB_CRITERION_DEFAULT, .threshold = -1.0f};
+static const lab_gather_settings initial = {
+    .regularization = -1.0, .criterion = LAB_CRITERION_DEFAULT, .threshold = -1.0f};
+
+static aur_result select(aur_gather_settings *given, aur_warnings warnings, const aur_gather_method **method,
+                         aur_error *error) {
+    lab_gather_settings *const o = (lab_gather_settings *)given;
+    if (o->regularization < 0.0) /* as published for the published method */
+        o->regularization = o->weights == LAB_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
+    given->weights = o->weights == LAB_WEIGHTS_RATIO   ? AUR_WEIGHTS_RATIO
+                     : o->weights == LAB_WEIGHTS_EQUAL ? AUR_WEIGHTS_EQUAL
+                                                       : AUR_WEIGHTS_METHOD;
+    if (o->adaptive) {
+        *method = &lab_gather_by_levels;
+        return lab_levels_check(o, error);
+    }
+    lab_levels_warn_unused(o, warnings);
+    if (lab_merges(o) && given->rotations == 0)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "finalgather-lab: weights of merged samples need prepared rotations, not rotations=0");
+    if (lab_merges(o) && given->share != AUR_SHARE_NONE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "finalgather-lab: share needs weights=ratio, equal or osw");
+    *method = lab_merges(o)                   ? &lab_gather_merged
+              : o->weights == LAB_WEIGHTS_OSW ? &lab_gather_weighted
+                                              : NULL;
+    return AUR_OK;
+}
 
 const aur_gather_integrator lab_finalgather = {
     .size = sizeof lab_finalgather,
@@ -79,7 +109,7 @@ const aur_gather_integrator lab_finalgather = {
             .keys = keys},
     .settings_size = sizeof(lab_gather_settings),
     .initial = &initial,
-    .method = &lab_gather_by_levels};
+    .select = select};
 
 static const aur_row *const rows[] = {&lab_finalgather.row};
 

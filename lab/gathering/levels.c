@@ -1,11 +1,13 @@
 #include "levels.h"
 
-#include <aureole/quadrature.h>
 #include <aureole/sphere.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "ggx.h"
+#include "weighted.h"
 
 enum { LANES = AUR_GATHER_LANES };
 
@@ -13,7 +15,7 @@ enum { LANES = AUR_GATHER_LANES };
 
 /* Fills in the defaults. */
 static lab_gather_settings completed(const aur_gather_settings *given) {
-    lab_gather_settings o = *(const lab_gather_settings *)given;
+    lab_gather_settings o = *lab_settings(given);
     o.criterion = o.criterion == LAB_CRITERION_DEFAULT ? LAB_CRITERION_VARIANCE : o.criterion;
     if (o.threshold < 0.0f) /* by measurement: see docs/papers/gathering.md */
         o.threshold = o.criterion == LAB_CRITERION_ENTROPY             ? 0.3f
@@ -25,7 +27,7 @@ static lab_gather_settings completed(const aur_gather_settings *given) {
 }
 
 /* An unused parameter is an error: usually 'levels' after a comma in the pattern. */
-static void warn_of_idle_keys(const lab_gather_settings *o, aur_warnings warnings) {
+void lab_levels_warn_unused(const lab_gather_settings *o, aur_warnings warnings) {
     const struct {
         const char *name;
         bool given;
@@ -45,29 +47,22 @@ static void warn_of_idle_keys(const lab_gather_settings *o, aur_warnings warning
     }
 }
 
-static aur_result begin(const aur_gather_settings *given, aur_warnings warnings, bool *asked,
-                        aur_error *error) {
-    const lab_gather_settings *const o = (const lab_gather_settings *)given;
+aur_result lab_levels_check(const lab_gather_settings *o, aur_error *error) {
     const struct {
         bool excluded;
         aur_result result;
         const char *message;
     } exclusions[] = {
-        {given->share != AUR_SHARE_NONE, AUR_ERROR_UNSUPPORTED, "share does not go with adaptive=true"},
-        {given->debias != AUR_DEBIAS_NONE, AUR_ERROR_UNSUPPORTED,
+        {o->gather.share != AUR_SHARE_NONE, AUR_ERROR_UNSUPPORTED, "share does not go with adaptive=true"},
+        {o->gather.debias != AUR_DEBIAS_NONE, AUR_ERROR_UNSUPPORTED,
          "debias corrects the bias of the photon map, not that of adaptive=true: leave one of them out"},
-        {given->weights == AUR_WEIGHTS_OSWA || given->weights == AUR_WEIGHTS_MIS ||
-             given->weights == AUR_WEIGHTS_SOLVE,
-         AUR_ERROR_UNSUPPORTED,
+        {lab_merges(o), AUR_ERROR_UNSUPPORTED,
          "adaptive gathering grows each lobe's pattern by itself: weights of merged samples (oswa, mis) do "
          "not "
          "go with it; take osw, ratio or equal"},
         {o->level_factor == 3, AUR_ERROR_ARGUMENT, "'level_factor' is 2 or 4, not 3"},
     };
-    *asked = o->adaptive;
-    if (!o->adaptive)
-        warn_of_idle_keys(o, warnings);
-    for (size_t i = 0; i < sizeof exclusions / sizeof exclusions[0] && o->adaptive; ++i)
+    for (size_t i = 0; i < sizeof exclusions / sizeof exclusions[0]; ++i)
         if (exclusions[i].excluded)
             return aur_fail(error, exclusions[i].result, "finalgather-lab: %s", exclusions[i].message);
     return AUR_OK;
@@ -87,7 +82,7 @@ static aur_result choose(const aur_gather_settings *given, size_t base, size_t c
                             "fewer levels",
                             base, o.levels, o.level_factor, MOST_DIRECTIONS);
     }
-    if (given->weights == AUR_WEIGHTS_OSW && *count > MOST_OPTIMAL)
+    if (o.weights == LAB_WEIGHTS_OSW && *count > MOST_OPTIMAL)
         return aur_fail(
             error, AUR_ERROR_ARGUMENT,
             "finalgather-lab: optimal weights of levels of up to %zu directions would take too long "
@@ -126,45 +121,24 @@ typedef struct gather_levels {
 
 /* Inputs of the weights of all levels. */
 typedef struct level_maker {
-    const aur_gather_settings *options;
+    const lab_gather_settings *options;
     const aur_gather_directions *pattern;
     aur_potential *potential;
     double *xyz, *numbers; /* of all directions; two numbers each */
 } level_maker;
 
-/* In float, but normalised to unit length in double, as the solver requires. */
-static void widen(const aur_gather_directions *pattern, double *xyz) {
-    for (size_t i = 0; i < pattern->count; ++i) {
-        const double x = (double)pattern->x[i], y = (double)pattern->y[i], z = (double)pattern->z[i];
-        const double scale = 1.0 / sqrt(x * x + y * y + z * z);
-        xyz[3 * i] = scale * x;
-        xyz[3 * i + 1] = scale * y;
-        xyz[3 * i + 2] = scale * z;
-    }
-}
-
-/* Optimal weights for the lobe; their sum is its mass. */
-static aur_result solve(const level_maker *maker, size_t count, aur_error *error) {
-    const aur_potential *const potential = maker->potential;
-    const aur_weights_options options = {
-        .size = sizeof options, .regularization = maker->options->regularization, .sum_constraint = true};
-    const aur_result result = aur_weights_solve(count, maker->xyz, 1, &potential, &options, count,
-                                                maker->numbers, NULL, NULL, error);
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        maker->numbers[i] *= aur_potential_mass(potential);
-    return result;
-}
-
 /* The weights and the error of a level that ends after `count` directions. */
 static aur_result make_level(const level_maker *maker, size_t count, float **weights, float *worst,
                              aur_error *error) {
-    const double smoothness = maker->options->smoothness, mass = aur_potential_mass(maker->potential);
-    const bool optimal = maker->options->weights == AUR_WEIGHTS_OSW;
+    const double smoothness = maker->options->gather.smoothness, mass = aur_potential_mass(maker->potential);
+    const bool optimal = maker->options->weights == LAB_WEIGHTS_OSW;
     double *const numbers = maker->numbers, *const normalised = numbers + count;
     *weights = malloc(count * sizeof **weights);
     if (*weights == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "finalgather-lab: out of memory for %zu weights", count);
-    aur_result result = optimal ? solve(maker, count, error) : AUR_OK;
+    aur_result result = optimal ? lab_optimal_weights(count, maker->xyz, maker->potential,
+                                                      maker->options->regularization, numbers, error)
+                                : AUR_OK;
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         if (!optimal) /* p/q, a mean */
             numbers[i] = (double)maker->pattern->weights[i] / (double)count;
@@ -181,13 +155,15 @@ static aur_result make_level(const level_maker *maker, size_t count, float **wei
     return result;
 }
 
-static aur_result prepare(const aur_gather_settings *given, size_t base, const aur_gather_directions *pattern,
-                          void **state, aur_error *error) {
+static aur_result prepare(const aur_gather_settings *given, const aur_gather_common *common, size_t base,
+                          const aur_gather_directions *pattern, void *diffuse, void **state,
+                          aur_error *error) {
+    (void)common, (void)diffuse;
     const lab_gather_settings o = completed(given);
     const aur_density density = {.size = sizeof density, .exponent = pattern->exponent};
     gather_levels *const levels = calloc(1, sizeof *levels);
     level_maker maker = {
-        .options = given, .pattern = pattern, .xyz = malloc(5 * pattern->count * sizeof *maker.xyz)};
+        .options = &o, .pattern = pattern, .xyz = malloc(5 * pattern->count * sizeof *maker.xyz)};
     *state = levels;
     aur_result result = AUR_OK;
     if (levels == NULL || maker.xyz == NULL)
@@ -200,7 +176,7 @@ static aur_result prepare(const aur_gather_settings *given, size_t base, const a
                                   .pattern_weights = pattern->weights,
                                   .count = o.levels + 1};
         maker.numbers = maker.xyz + 3 * pattern->count;
-        widen(pattern, maker.xyz);
+        lab_widen(pattern, 0, maker.xyz);
     }
     size_t end = base;
     for (size_t l = 0; result == AUR_OK && l < levels->count; ++l, end *= o.level_factor) {
@@ -345,5 +321,10 @@ static void gather(const void *prepared, uint32_t lanes, aur_gather_sweep *sweep
     }
 }
 
-const aur_gather_method lab_gather_by_levels = {
-    .begin = begin, .choose = choose, .prepare = prepare, .release = release, .gather = gather};
+const aur_gather_method lab_gather_by_levels = {.choose = choose,
+                                                .prepare = prepare,
+                                                .release = release,
+                                                .gather = gather,
+                                                .prepare_ggx = lab_ggx_prepare,
+                                                .release_ggx = lab_ggx_release,
+                                                .gather_ggx = lab_ggx_gather};

@@ -92,7 +92,7 @@ points/base
         # The harness of command lines reads them by the tables of the program.
         if (file == "fuzz/fuzz_options.c" && target ~ /^program\/cli\//) next
         if (file == "tests/program/cli/test_progress.c" && target == "program/cli/progress.h") next # arithmetic that needs no program
-        if (target == "program/lab/gather.h") next # keys that finalgather has not
+        if (target ~ /^(program\/lab\/gather.h|lab\/gathering\/)/) next # the integrator of the lab
         if (target ~ /^(program|lab|scenes)\//) bad("tests and the bench run programs, and do not look into them")
         next
       }

@@ -90,15 +90,16 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                          aur_integrator *integrator, aur_error *error) {
     (void)parameters;
     aur_gather_settings *const p = integrator->data;
-    const aur_gather_method *method = integrator->gather != NULL ? integrator->gather->method : NULL;
-    bool selected = false;
+    const aur_gather_integrator *const gather = integrator->gather;
+    const aur_gather_method *method = NULL;
     /* Short patterns, complete after few samples, if the final sample count is unknown. */
     if (p->split == 0 && !aur_integrator_knows_samples(context))
         p->split = UNKNOWN_SPLIT;
-    aur_result result = aur_gather_settings_complete(p, error);
-    if (result == AUR_OK && method != NULL)
-        result = method->begin(p, context->warnings, &selected, error);
-    method = selected ? method : NULL;
+    aur_result result = gather != NULL && gather->select != NULL
+                            ? gather->select(p, context->warnings, &method, error)
+                            : AUR_OK;
+    if (result == AUR_OK)
+        result = aur_gather_settings_complete(p, error);
     if (result == AUR_OK)
         result = aur_scene_refuse_media(context->scene, "integrator 'finalgather'", error);
     if (result != AUR_OK)
@@ -110,7 +111,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     static const char *const directions[] = {"directions"};
     static const char *const sharing[] = {"sharing.R", "sharing.G", "sharing.B"};
     const bool near = p->share == AUR_SHARE_NEAR;
-    integrator->extra_count = method != NULL ? 1 : near ? 3 : 0;
+    integrator->extra_count = method != NULL && method->gather != NULL ? 1 : near ? 3 : 0;
     integrator->extra_names = near ? sharing : directions;
     aur_gather_plan *plan;
     result = aur_gather_plan_create(p, method, context, &plan, error);

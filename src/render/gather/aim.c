@@ -34,7 +34,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_poin
     uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
                               surface_points->bounces, lobe);
     /* Without splitting, each sample of a pixel gets another rotation. */
-    if (plan->rules.method != NULL)
+    if (plan->rules.whole)
         tile = aur_hash2(tile, surface_points->index);
     if (rule->nested) {
         const size_t pixel = aur_group_pixel(surface_points->arrangement, surface_points->group, lane);
@@ -100,24 +100,21 @@ void aur_gather_set_frame(const aur_gather_point *surface_point, size_t lane, co
     gather_rays->reference[lane] = aur_gather_point_reference(surface_point);
 }
 
-uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
-                        aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
-    struct RTCRay16 *const rays = &packet->query.ray;
-    float above[AUR_PACKET_SIZE];
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const float x = local->x[k], y = local->y[k], z = local->z[k];
-        const float dx = frames->x.x[k] * x + frames->y.x[k] * y + frames->z.x[k] * z;
-        const float dy = frames->x.y[k] * x + frames->y.y[k] * y + frames->z.y[k] * z;
-        const float dz = frames->x.z[k] * x + frames->y.z[k] * y + frames->z.z[k] * z;
-        cosine[k] = frames->shading.x[k] * dx + frames->shading.y[k] * dy + frames->shading.z[k] * dz;
-        const float beyond =
-            frames->geometric.x[k] * dx + frames->geometric.y[k] * dy + frames->geometric.z[k] * dz;
-        above[k] = beyond < cosine[k] ? beyond : cosine[k];
-        rays->dir_x[k] = dx;
-        rays->dir_y[k] = dy;
-        rays->dir_z[k] = dz;
-        rays->tfar[k] = INFINITY;
-    }
+/* Sets the direction of one lane, in world coordinates; `above` is its height above the surface, by both
+ * normals. */
+static inline void set_direction(const aur_lobe_frames *restrict frames, size_t k, float x, float y, float z,
+                                 struct RTCRay16 *restrict rays, float cosine[AUR_PACKET_SIZE],
+                                 float above[AUR_PACKET_SIZE]) {
+    cosine[k] = frames->shading.x[k] * x + frames->shading.y[k] * y + frames->shading.z[k] * z;
+    const float beyond = frames->geometric.x[k] * x + frames->geometric.y[k] * y + frames->geometric.z[k] * z;
+    above[k] = beyond < cosine[k] ? beyond : cosine[k];
+    rays->dir_x[k] = x;
+    rays->dir_y[k] = y;
+    rays->dir_z[k] = z;
+    rays->tfar[k] = INFINITY;
+}
+
+static inline uint32_t mask_packet(uint32_t lanes, const float above[AUR_PACKET_SIZE], aur_packet *packet) {
     uint32_t aimed = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const bool active = aur_has_lane(lanes, k) && above[k] > 0.0f;
@@ -125,6 +122,29 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, 
         aimed |= (uint32_t)active << k;
     }
     return aimed;
+}
+
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
+                        aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    float above[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float x = local->x[k], y = local->y[k], z = local->z[k];
+        set_direction(frames, k, frames->x.x[k] * x + frames->y.x[k] * y + frames->z.x[k] * z,
+                      frames->x.y[k] * x + frames->y.y[k] * y + frames->z.y[k] * z,
+                      frames->x.z[k] * x + frames->y.z[k] * y + frames->z.z[k] * z, rays, cosine, above);
+    }
+    return mask_packet(lanes, above, packet);
+}
+
+uint32_t aur_gather_aim_world(uint32_t lanes, const aur_lobe_frames *restrict frames,
+                              const float directions[3][AUR_PACKET_SIZE], aur_packet *packet,
+                              float cosine[AUR_PACKET_SIZE]) {
+    float above[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        set_direction(frames, k, directions[0][k], directions[1][k], directions[2][k], &packet->query.ray,
+                      cosine, above);
+    return mask_packet(lanes, above, packet);
 }
 
 bool aur_gather_aim_draw(const aur_gather_point *surface_point, size_t lane, const float u[3], float draws,

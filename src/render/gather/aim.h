@@ -17,6 +17,11 @@ void aur_gather_set_frame(const aur_gather_point *surface_point, size_t lane, co
 uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
                         aur_packet *packet, float cosine[AUR_PACKET_SIZE]);
 
+/* The same from directions of the world. */
+uint32_t aur_gather_aim_world(uint32_t lanes, const aur_lobe_frames *restrict frames,
+                              const float directions[3][AUR_PACKET_SIZE], aur_packet *packet,
+                              float cosine[AUR_PACKET_SIZE]);
+
 /* Sets the hashes of the random decisions about whether rays of direction `index`, lobe `lobe`, continue. */
 void aur_gather_set_probability(const aur_gather_points *surface_points, size_t lobe, size_t index,
                                 aur_gather_rays *rays);
@@ -41,7 +46,8 @@ bool aur_gather_splits(const aur_gather_points *surface_points, const aur_gather
 /* Whether irradiance gathered by this rule is pooled with neighbouring pixels. */
 bool aur_gather_pools(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule);
 
-/* One rule at the shading points of some lanes, to be traced direction by direction for lobe `lobe`. */
+/* One rule at the shading points of some lanes, to be traced direction by direction for lobe `lobe`; or, with
+ * `rule` NULL, what a method gathers by directions of its choice. */
 struct aur_gather_sweep {
     const aur_gather_points *surface_points;
     aur_gather_sums *sums;
@@ -50,6 +56,7 @@ struct aur_gather_sweep {
     uint32_t lanes;
     uint32_t factored; /* lanes whose lobe is a power of the cosine times another factor */
     bool together;     /* all lanes share one rotation */
+    bool pairs;        /* a method gathers pairs of lobes, else lobe `lobe` */
     bool times_cosine[AUR_PACKET_SIZE];
     aur_gather_rotation rotations[AUR_PACKET_SIZE];
     aur_lobe_frames frames;

@@ -22,8 +22,8 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
         } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && surface_point->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
             const aur_gather_lobe_rule *const rule = surface_point->rules[i];
-            if (surface_point->merged != NULL)
-                density = aur_gather_point_merged_density(surface_point, local);
+            if (surface_point->paired)
+                density = aur_gather_point_pair_density(plan, surface_point, local);
             else if (!aur_vector_is_zero(value))
                 density = aur_gather_rule_density(&rule->rule, aur_vector_dot(lobe->axis, local)) *
                           rule->directions;

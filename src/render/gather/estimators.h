@@ -7,15 +7,12 @@
 /* Adds direct and gathered light reflected by all lobes but specular ones. */
 void aur_gather_shade(const aur_gather_points *surface_points, aur_gather_sums *sums);
 
-/* One lobe, which `rule` gathers in these lanes by the caller's method. */
+/* By the caller's method (gather.h): one lobe, which `rule` gathers in these lanes. */
 void aur_gather_by_method(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule,
                           size_t lobe, uint32_t lanes, aur_gather_sums *sums);
-
-/* Handles all lobes of shading points that have a merged rule, and of diffuse points in the same group.
- * Returns the lanes that remain. */
-uint32_t aur_gather_by_merged(const aur_gather_points *surface_points, aur_gather_sums *sums);
-
-/* Handles the sampled lobe of shading points that have a GGX rule for it. */
+/* Pairs of lobes, and diffuse lobes if the method takes them. Returns the lanes that remain. */
+uint32_t aur_gather_pairs(const aur_gather_points *surface_points, aur_gather_sums *sums);
+/* The sampled lobe of shading points that have a state for it. */
 void aur_gather_by_ggx(const aur_gather_points *surface_points, size_t lobe, uint32_t lanes,
                        aur_gather_sums *sums);
 

@@ -162,14 +162,6 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
 
 /* --- sixteen rays */
 
-static float density_of(const aur_gather_rays *rays, size_t lane) {
-    if (rays->merged[lane] == NULL)
-        return rays->density[lane];
-    const aur_vector direction = aur_packet_ray(&rays->packet, lane).direction;
-    return aur_merged_rule_density(rays->merged[lane], aur_vector_dot(rays->axes[lane][0], direction),
-                                   aur_vector_dot(rays->axes[lane][1], direction));
-}
-
 /* The part of a bright texel's light that gathering counts; sampling of bright texels adds the rest. */
 static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
                            aur_vector map_light) {
@@ -182,7 +174,7 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     const float along = fabsf(aur_vector_dot(normal, direction)), distance = query->ray.tfar[lane];
     const float other_pdf =
         texel * (float)plan->light.bright_draws * distance * distance * aur_vector_length(normal) / along;
-    return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), other_pdf) : 1.0f;
+    return along > 0.0f ? aur_power_heuristic(rays->density[lane], other_pdf) : 1.0f;
 }
 
 /* Radiance of a diffuse surface without emission and outside instances: from the map, or from a path where
@@ -289,7 +281,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
             /* The density is needed only for light that is sampled too. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
             const aur_bounce bounce = {.from = rays->reference[lane],
-                                       .pdf = weighed ? density_of(rays, lane) : 0.0f,
+                                       .pdf = weighed ? rays->density[lane] : 0.0f,
                                        .light_samples = (float)plan->light.draws};
             const gather_chain chain = {.path = {.beta = {1.0f, 1.0f, 1.0f},
                                                  .ray = aur_packet_ray(&rays->packet, lane),

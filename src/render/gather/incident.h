@@ -12,10 +12,6 @@ typedef struct aur_gather_rays {
     /* Solid-angle density of each direction times the number of directions per sample: the pdf for MIS
      * against light sampling. */
     float density[AUR_PACKET_SIZE];
-    /* If not NULL: the density is instead that of both patterns of this rule about these axes, computed only
-     * where needed. */
-    const aur_merged_rule *merged[AUR_PACKET_SIZE];
-    aur_vector axes[AUR_PACKET_SIZE][2];
     /* Seeds of the random decisions where rays continue: a hash of the direction, and hashes of the lanes'
      * pixels. The result does not depend on which pixels are grouped. */
     uint64_t hash;

@@ -1,6 +1,6 @@
 /* Data that final gathering computes once per image and that is constant while the image is rendered:
  *
- *     rules.c                   directions and weights for each kind of lobe, from rule.c and rule_*.c
+ *     rules.c                   directions and weights for each kind of lobe, from sampling/rule.c
  *     plan.c                    these rules, photon maps and the integrator's parameters
  *
  * Functions that process sixteen pixels at a time take the plan, the surface points that the pixels see
@@ -8,7 +8,7 @@
  *
  *     incident.c                radiance along gather rays
  *     aim.c                     turns a rule's directions into rays at the shading points, and traces them
- *     estimate_*.c              radiance of a lobe by such rays; no estimator calls another
+ *     estimate_method.c         radiance of lobes by a method of the caller (gather.h)
  *     drawn_light.c             samples of lights and of bright texels
  *     shade.c                   calls the above for all lobes of the shading points
  *     strata.c, pooling.c       surfaces that a pixel's samples hit, edges, and irradiance pooled between

@@ -1,11 +1,9 @@
 #include "render/gather/points.h"
 #include "render/trace/packet_rays.h"
 
-/* Finds the merged rule of a shading point with one diffuse and one glossy lobe, both analytic; specular
- * lobes are allowed. */
-static void find_merged(aur_gather_point *surface_point) {
+/* Finds one diffuse and one glossy lobe, both analytic; specular lobes are allowed. */
+static void find_pair(aur_gather_point *surface_point) {
     bool found[2] = {false, false};
-    surface_point->merged = NULL;
     for (size_t i = 0; i < surface_point->lobe_count; ++i) {
         const aur_bsdf_lobe *const lobe = &surface_point->lobes[i];
         const size_t which = lobe->diffuse ? 0 : 1;
@@ -15,10 +13,9 @@ static void find_merged(aur_gather_point *surface_point) {
             (which == 0 && lobe->exponent != 1.0f))
             return;
         found[which] = true;
-        surface_point->merged_lobes[which] = i;
+        surface_point->pair[which] = i;
     }
-    if (found[0] && found[1])
-        surface_point->merged = surface_point->rules[surface_point->merged_lobes[1]]->merged;
+    surface_point->paired = found[0] && found[1];
 }
 
 void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const aur_hit *hit,
@@ -34,9 +31,9 @@ void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const
         aur_bsdf_lobes(surface->bsdf, surface->texture, surface_point->view, surface_point->lobes);
     surface_point->rules = plan->rules.of_shape[surface->shape];
     surface_point->ggx = plan->rules.ggx_of_shape[surface->shape];
-    surface_point->merged = NULL;
-    if (plan->rules.merged != NULL)
-        find_merged(surface_point);
+    surface_point->paired = false;
+    if (plan->rules.pairs)
+        find_pair(surface_point);
 }
 
 /* Whether packets from these points are coherent: decided by normals and positions, never by timing. */

@@ -15,11 +15,9 @@ typedef struct aur_gather_point {
     size_t lobe_count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const aur_gather_lobe_rule *const *rules; /* what gathers each lobe with a formula */
-    const aur_ggx_rule *ggx; /* of its sampled lobe, where that is GGX and weights are optimal */
-    /* If the point has only a diffuse and a glossy lobe and merged samples serve both: the rule and the
-     * lobes' numbers. Else NULL. */
-    const aur_merged_rule *merged;
-    size_t merged_lobes[2];
+    const void *ggx; /* the method's state for its sampled lobe, if that is GGX; or NULL */
+    bool paired;     /* it has only a diffuse and a glossy lobe, and a method gathers both together */
+    size_t pair[2];  /* these lobes */
 } aur_gather_point;
 
 /* What all sixteen are gathered with; estimators only read it. */
@@ -73,12 +71,13 @@ static inline bool aur_gather_point_has(const aur_gather_point *surface_point, s
     return !aur_vector_is_zero(surface_point->lobes[lobe].coefficient);
 }
 
-/* The solid-angle density of both lobes' merged samples in a local direction. */
-static inline float aur_gather_point_merged_density(const aur_gather_point *surface_point, aur_vector local) {
-    return aur_merged_rule_density(
-        surface_point->merged,
-        aur_vector_dot(surface_point->lobes[surface_point->merged_lobes[0]].axis, local),
-        aur_vector_dot(surface_point->lobes[surface_point->merged_lobes[1]].axis, local));
+/* The density of the directions of a pair of lobes in a local direction. */
+static inline float aur_gather_point_pair_density(const aur_gather_plan *plan,
+                                                  const aur_gather_point *surface_point, aur_vector local) {
+    const size_t *const pair = surface_point->pair;
+    const float cosines[2] = {aur_vector_dot(surface_point->lobes[pair[0]].axis, local),
+                              aur_vector_dot(surface_point->lobes[pair[1]].axis, local)};
+    return plan->rules.method->pair_density(surface_point->rules[pair[1]]->state, cosines);
 }
 
 /* A lobe's axis in world coordinates. */

@@ -18,6 +18,7 @@ typedef struct rule_maker {
     size_t base;                     /* requested directions */
     size_t pixels;                   /* that split one pattern */
     const aur_gather_method *method; /* the caller's; or NULL */
+    bool whole;                      /* see aur_gather_rules */
     char set[256];                   /* chosen by the method in place of the pattern */
 } rule_maker;
 
@@ -37,53 +38,50 @@ static aur_result name_pattern(rule_maker *maker, aur_error *error) {
 static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
     maker->base = base;
     maker->pattern.count = maker->pixels * aur_gather_split_count(base, maker->context->samples_per_pixel);
-    if (maker->method == NULL)
+    if (!maker->whole)
         return AUR_OK;
     maker->pattern.set = maker->set;
     return maker->method->choose(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
 }
 
-static bool is_optimal(const aur_gather_settings *p) {
-    return p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
+static aur_gather_common common_of(const rule_maker *maker) {
+    const aur_integrator_context *const context = maker->context;
+    return (aur_gather_common){.map = maker->pattern.map,
+                               .scramble = maker->pattern.scramble,
+                               .seed = maker->pattern.seed,
+                               .subsets = context->samples_per_pixel,
+                               .threads = context->threads,
+                               .use_cache = context->use_cache,
+                               .progress = &context->progress};
 }
 
-/* A rule for the caller's method, or with its weights. */
-static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
+/* A rule, and the state of the caller's method for it; `diffuse` is that of the diffuse rule. */
+static aur_result make(const rule_maker *maker, double exponent, void *diffuse, aur_gather_lobe_rule *lobe,
                        aur_error *error) {
-    const aur_gather_settings *const p = maker->p;
+    const aur_gather_method *const method = maker->method;
     const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
     if (result != AUR_OK)
         return result;
-    if (maker->method != NULL && lobe->rule.square != NULL)
+    const aur_gather_rule *const rule = &lobe->rule;
+    lobe->directions = maker->whole
+                           ? (float)maker->base
+                           : (float)(rule->count / (maker->pixels * maker->context->samples_per_pixel));
+    if (method == NULL)
+        return AUR_OK;
+    if (rule->square != NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: a caller's method needs prepared rotations, not a pattern that is "
                         "scrambled at every shading point");
-    if (maker->method != NULL) {
-        const aur_gather_rule *const rule = &lobe->rule;
-        const aur_gather_directions pattern = {rule->count, rule->exponent, rule->x,
-                                               rule->y,     rule->z,        rule->weights};
-        lobe->directions = (float)maker->base;
-        return maker->method->prepare(p, maker->base, &pattern, &lobe->state, error);
-    }
-    lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
-    return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->smoothness, p->regularization, error)
-                         : AUR_OK;
-}
-
-static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse, aur_gather_lobe_rule *lobe,
-                        aur_error *error) {
-    aur_merged_rule_options options = {.pattern = maker->pattern,
-                                       .method = maker->p->weights,
-                                       .glossy_count = lobe->rule.count,
-                                       .subsets = maker->context->samples_per_pixel,
-                                       .exponent = lobe->rule.exponent,
-                                       .clipped = maker->p->clip,
-                                       .regularization = maker->p->regularization,
-                                       .threads = maker->context->threads,
-                                       .use_cache = maker->context->use_cache,
-                                       .progress = maker->context->progress};
-    options.pattern.count = diffuse->count;
-    return aur_merged_rule_create(&options, &lobe->merged, error);
+    const aur_gather_common common = common_of(maker);
+    const aur_gather_directions pattern = {.count = rule->count,
+                                           .copies = rule->copies,
+                                           .exponent = rule->exponent,
+                                           .x = rule->x,
+                                           .y = rule->y,
+                                           .z = rule->z,
+                                           .densities = rule->densities,
+                                           .weights = rule->weights};
+    return method->prepare(maker->p, &common, maker->base, &pattern, diffuse, &lobe->state, error);
 }
 
 /* The rule of an analytic lobe, created on first use. */
@@ -98,13 +96,10 @@ static aur_result find_or_create(const rule_maker *maker, const aur_bsdf_lobe *t
     if (i < rules->count)
         return AUR_OK;
     ++rules->count;
-    const aur_result result = make(maker, target->exponent, lobe, error);
-    lobe->clipped = maker->p->clip && maker->method == NULL;
+    lobe->clipped = maker->p->clip && !maker->whole;
     if (lobe->clipped)
         aur_gather_horizon_fill(target->exponent, &lobe->horizon);
-    return result == AUR_OK && aur_merges_samples(maker->p->weights)
-               ? merge(maker, &rules->lobes[0].rule, lobe, error)
-               : result;
+    return make(maker, target->exponent, rules->lobes[0].state, lobe, error);
 }
 
 /* Finds or creates rules for the lobes of all surfaces, including lobes that a texture makes black in places.
@@ -139,26 +134,24 @@ static float ggx_alpha_of(const aur_bsdf *bsdf) {
     return 0.0f;
 }
 
-/* Creates rules for GGX lobes with the pattern of sampled ones. */
+/* The method's states for GGX lobes, which have as many directions as sampled ones. */
 static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
     const aur_scene *const scene = maker->context->scene;
-    aur_ggx_rule_options options = {.pattern = maker->pattern,
-                                    .regularization = maker->p->regularization,
-                                    .threads = maker->context->threads,
-                                    .progress = maker->context->progress};
-    options.pattern.set = maker->p->pattern;
-    options.pattern.count = rules->sampled.rule.count;
+    const aur_gather_common common = common_of(maker);
     aur_result result = AUR_OK;
     for (uint32_t shape = 0; shape < aur_scene_shape_count(scene) && result == AUR_OK; ++shape) {
-        options.alpha = ggx_alpha_of(aur_scene_shape_bsdf(scene, shape));
+        const float alpha = ggx_alpha_of(aur_scene_shape_bsdf(scene, shape));
         size_t i = 0;
-        while (i < rules->ggx_count && rules->ggx[i].alpha != options.alpha)
+        while (i < rules->ggx_count && rules->ggx[i].alpha != alpha)
             ++i;
-        if (!(options.alpha > 0.0f && options.alpha <= 1.0f))
+        if (!(alpha > 0.0f && alpha <= 1.0f))
             continue;
-        rules->ggx_of_shape[shape] = &rules->ggx[i];
-        if (i == rules->ggx_count)
-            result = aur_ggx_rule_create(&options, &rules->ggx[rules->ggx_count++], error);
+        if (i == rules->ggx_count) {
+            rules->ggx[rules->ggx_count++].alpha = alpha;
+            result = maker->method->prepare_ggx(maker->p, &common, rules->sampled.rule.count, alpha,
+                                                &rules->ggx[i].state, error);
+        }
+        rules->ggx_of_shape[shape] = rules->ggx[i].state;
     }
     return result;
 }
@@ -166,7 +159,7 @@ static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, au
 aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gather_method *method,
                                    const aur_integrator_context *context, aur_gather_rules *rules,
                                    aur_error *error) {
-    *rules = (aur_gather_rules){.method = method};
+    *rules = (aur_gather_rules){.method = method, .whole = method != NULL && method->gather != NULL};
     const size_t shapes = aur_scene_shape_count(context->scene);
     size_t most = 1;
     for (size_t i = 0; i < shapes; ++i)
@@ -178,6 +171,7 @@ aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gathe
     if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
         return aur_fail_memory(error);
     rule_maker maker = {.method = method,
+                        .whole = rules->whole,
                         .p = p,
                         .context = context,
                         .pixels = p->share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
@@ -187,7 +181,7 @@ aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gathe
     if (result == AUR_OK)
         result = prepare(&maker, p->diffuse_samples, error);
     if (result == AUR_OK)
-        result = make(&maker, 1.0, &rules->lobes[0], error);
+        result = make(&maker, 1.0, NULL, &rules->lobes[0], error);
     maker.pixels = 1;
     maker.pattern.nested = false;
     maker.pattern.warnings = (aur_warnings){0}; /* already given with the diffuse pattern */
@@ -197,10 +191,10 @@ aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gathe
         result = serve_shapes(&maker, rules, error);
     if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0)
         result = make_sampled(&maker, &rules->sampled, error);
-    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0 && is_optimal(p) &&
-        p->rotations > 0)
+    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0 && method != NULL &&
+        method->prepare_ggx != NULL)
         result = serve_ggx(&maker, rules, error);
-    rules->merged = rules->count > 1 ? rules->lobes[1].merged : NULL;
+    rules->pairs = rules->count > 1 && method != NULL && method->gather_pairs != NULL;
     return result;
 }
 
@@ -208,7 +202,6 @@ static void release(const aur_gather_method *method, aur_gather_lobe_rule *lobe)
     aur_gather_rule_release(&lobe->rule);
     if (method != NULL)
         method->release(lobe->state);
-    aur_merged_rule_destroy(lobe->merged);
 }
 
 void aur_gather_rules_release(aur_gather_rules *rules) {
@@ -216,7 +209,7 @@ void aur_gather_rules_release(aur_gather_rules *rules) {
         release(rules->method, &rules->lobes[i]);
     release(rules->method, &rules->sampled);
     for (size_t i = 0; i < rules->ggx_count; ++i)
-        aur_ggx_rule_release(&rules->ggx[i]);
+        rules->method->release_ggx(rules->ggx[i].state);
     free(rules->ggx);
     free(rules->ggx_of_shape);
     free(rules->lobes);

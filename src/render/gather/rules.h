@@ -2,19 +2,8 @@
 #pragma once
 
 #include "render/film/integrator.h"
-#include "render/gather/rule_ggx.h"
-#include "render/gather/rule_merged.h"
 #include "render/gather/settings.h"
 #include "render/sampling/rule.h"
-
-/* Weights of one rule that replace p/q: optimal weights for its lobe (Marques 2018, section 5.2), and weights
- * corrected where a lobe extends below the surface. */
-
-/* Replaces the weights of a rule with prepared directions by the optimal ones for its lobe, with the same
- * sum. Weights do not depend on rotations of the pattern about its axis. Errors: UNSUPPORTED for directions
- * that are computed at the shading point. */
-aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, double regularization,
-                                    aur_error *error);
 
 /* --- lobes that dip below the surface */
 
@@ -36,28 +25,33 @@ float aur_gather_horizon_factor(const aur_gather_rule *rule, const aur_gather_ho
 
 typedef struct aur_gather_lobe_rule {
     aur_gather_rule rule;
-    float directions; /* per sample of a pixel; with a caller's method, the requested number */
+    float directions; /* per sample of a pixel; if a method uses whole patterns, the requested number */
     bool clipped;     /* the lobe ends at the horizon, with a table of its visible part */
     aur_gather_horizon horizon;
-    void *state; /* of the caller's method, which gathers by the rule; NULL: all directions are traced */
-    aur_merged_rule *merged; /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
+    void *state; /* of the caller's method */
 } aur_gather_lobe_rule;
 
+/* The state of the caller's method for GGX lobes of one roughness. */
+typedef struct aur_gather_ggx {
+    float alpha;
+    void *state;
+} aur_gather_ggx;
+
 typedef struct aur_gather_rules {
-    const aur_gather_method *method; /* of all lobes with a formula; or NULL */
-    size_t count;                    /* at least 1 */
+    const aur_gather_method *method; /* the caller's; or NULL */
+    bool whole;   /* the method gathers each lobe by whole patterns; else samples of a pixel split them */
+    bool pairs;   /* the method gathers a diffuse and a glossy lobe together */
+    size_t count; /* at least 1 */
     /* lobes[0] is for diffuse lobes; the exponents of the others differ. */
     aur_gather_lobe_rule *lobes;
     /* Uniform over the hemisphere, for lobes without a formula: see aur_gather_rule_square. Empty if no
      * material has one. */
     aur_gather_lobe_rule sampled;
-    /* With optimal weights, the rules for GGX lobes: one for each roughness; and the rule of each shape's
-     * material, or NULL. */
+    /* If a method gathers GGX lobes: one for each roughness; and the state of each shape's material, or NULL.
+     */
     size_t ggx_count;
-    aur_ggx_rule *ggx;
-    const aur_ggx_rule **ggx_of_shape;
-    /* Diffuse pattern of all merged rules, which differ in the glossy one; NULL if none are merged. */
-    const aur_merged_rule *merged;
+    aur_gather_ggx *ggx;
+    const void **ggx_of_shape;
     /* What gathers each lobe of each shape's material; NULL for lobes without a formula. */
     const aur_gather_lobe_rule *(*of_shape)[AUR_BSDF_LOBE_CAPACITY];
     unsigned scatters; /* the kinds of all surfaces' lobes, AUR_SCATTERS_* */

@@ -1,23 +1,19 @@
 #include "render/gather/settings.h"
 
-#include <aureole/quadrature.h>
-
 #include <string.h>
 
 #include "points/base/error.h"
 
 /* Options that exclude others, as a bit mask. */
 enum {
-    EQUAL = 1 << 0, /* weights */
-    MERGED = 1 << 1,
-    OPTIMAL = 1 << 2, /* density */
-    SHARE = 1 << 3,
-    SHARE_NEAR = 1 << 4,
-    DEBIAS = 1 << 5,
-    CAUSTICS = 1 << 6,
-    NO_ROTATIONS = 1 << 7,
-    NOT_DITHERED = 1 << 8, /* decorrelation */
-    NOT_FIBONACCI = 1 << 9 /* pattern or scramble */
+    EQUAL = 1 << 0,   /* weights */
+    OPTIMAL = 1 << 1, /* density */
+    SHARE = 1 << 2,
+    SHARE_NEAR = 1 << 3,
+    DEBIAS = 1 << 4,
+    CAUSTICS = 1 << 5,
+    NOT_DITHERED = 1 << 6, /* decorrelation */
+    NOT_FIBONACCI = 1 << 7 /* pattern or scramble */
 };
 
 /* Options that exclude each other: all bits of a row together are an error. */
@@ -28,10 +24,7 @@ static const struct {
 } exclusions[] = {
     {EQUAL | OPTIMAL, AUR_ERROR_ARGUMENT,
      "equal weights are for density=same; for density=optimal take weights=ratio"},
-    {MERGED | NO_ROTATIONS, AUR_ERROR_ARGUMENT,
-     "weights of merged samples need prepared rotations, not rotations=0"},
     {SHARE | NOT_DITHERED, AUR_ERROR_UNSUPPORTED, "share needs decorrelation=blue"},
-    {SHARE | MERGED, AUR_ERROR_UNSUPPORTED, "share needs weights=ratio, equal or osw"},
     {SHARE_NEAR | NOT_FIBONACCI, AUR_ERROR_UNSUPPORTED,
      "share=near has spherical Fibonacci sets that complete each other: leave 'pattern' and 'scramble' out"},
     {DEBIAS | SHARE, AUR_ERROR_UNSUPPORTED,
@@ -48,13 +41,11 @@ static unsigned given_options(const aur_gather_settings *o) {
         unsigned bit;
     } bits[] = {
         {o->weights == AUR_WEIGHTS_EQUAL, EQUAL},
-        {aur_merges_samples(o->weights), MERGED},
         {o->density == AUR_GATHER_DENSITY_OPTIMAL, OPTIMAL},
         {o->share != AUR_SHARE_NONE, SHARE},
         {o->share == AUR_SHARE_NEAR, SHARE_NEAR},
         {o->debias != AUR_DEBIAS_NONE, DEBIAS},
         {o->caustic_photons > 0, CAUSTICS},
-        {o->rotations == 0, NO_ROTATIONS},
         {o->decorrelation != AUR_DECORRELATION_BLUE, NOT_DITHERED},
         {!fibonacci, NOT_FIBONACCI},
     };
@@ -67,8 +58,6 @@ static unsigned given_options(const aur_gather_settings *o) {
 aur_result aur_gather_settings_complete(aur_gather_settings *o, aur_error *error) {
     if (o->density == AUR_GATHER_DENSITY_DEFAULT)
         o->density = o->weights == AUR_WEIGHTS_EQUAL ? AUR_GATHER_DENSITY_SAME : AUR_GATHER_DENSITY_OPTIMAL;
-    if (o->regularization < 0.0) /* as published for the published method */
-        o->regularization = o->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
     if (o->debias == AUR_DEBIAS_ONLY || o->debias == AUR_DEBIAS_FOUND)
         o->direct = AUR_DIRECT_NONE;
     const unsigned given = given_options(o);

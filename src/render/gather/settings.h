@@ -7,17 +7,11 @@
 #define AUR_GATHER_SETTINGS_INITIAL                                                                          \
     {                                                                                                        \
         .diffuse_samples = 64, .glossy_samples = 64, .pattern = "spherical-fibonacci", .map = "lambert",     \
-        .rotations = 16, .density = AUR_GATHER_DENSITY_DEFAULT, .smoothness = 1.5, .regularization = -1.0,   \
-        .clip = true, .photons = 500000, .photon_pattern = "sobol", .photons_per_texel = 16.0,               \
-        .continued = 0.25, .short_rays = 2.0, .light_samples = 1, .max_depth = UINT32_MAX,                   \
-        .edge_samples = 128, .packets = true                                                                 \
+        .rotations = 16, .density = AUR_GATHER_DENSITY_DEFAULT, .smoothness = 1.5, .clip = true,             \
+        .photons = 500000, .photon_pattern = "sobol", .photons_per_texel = 16.0, .continued = 0.25,          \
+        .short_rays = 2.0, .light_samples = 1, .max_depth = UINT32_MAX, .edge_samples = 128, .packets = true \
     }
 
 /* Sets the defaults that follow from other options. Errors: ARGUMENT and UNSUPPORTED for options that exclude
  * each other. */
 aur_result aur_gather_settings_complete(aur_gather_settings *options, aur_error *error);
-
-/* Whether both patterns' samples serve both lobes. */
-static inline bool aur_merges_samples(aur_gather_weights weights) {
-    return weights == AUR_WEIGHTS_OSWA || weights == AUR_WEIGHTS_MIS || weights == AUR_WEIGHTS_SOLVE;
-}

@@ -143,7 +143,7 @@ static void gather_lobe(const aur_gather_points *surface_points, uint32_t lanes,
     while (ruled != 0) {
         const aur_gather_lobe_rule *const rule = surface_points->at[aur_first_lane(ruled)].rules[lobe];
         const uint32_t same_rule = lanes_of_rule(surface_points, ruled, lobe, rule);
-        if (rule->state != NULL)
+        if (surface_points->plan->rules.whole)
             aur_gather_by_method(surface_points, rule, lobe, same_rule, sums);
         else
             by_rule(surface_points, rule, lobe, same_rule, sums);
@@ -164,8 +164,7 @@ void aur_gather_shade(const aur_gather_points *surface_points, aur_gather_sums *
         aur_gather_add_bright_light(surface_points, sums);
     if (!plan->gathers)
         return;
-    const uint32_t lanes =
-        plan->rules.merged != NULL ? aur_gather_by_merged(surface_points, sums) : surface_points->lanes;
+    const uint32_t lanes = plan->rules.pairs ? aur_gather_pairs(surface_points, sums) : surface_points->lanes;
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY && lanes != 0; ++lobe)
         gather_lobe(surface_points, lanes, lobe, sums);
 }

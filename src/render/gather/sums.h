@@ -22,9 +22,7 @@ typedef struct aur_gather_sums {
     uint32_t directions[AUR_PACKET_SIZE]; /* gathered with by the caller's method */
     /* Working memory. */
     aur_gather_rays rays;
-    /* Weights of merged samples, sixteen lanes per sample, for one lobe and then the other, followed by space
-     * for one lane's. Of the caller's method: 3 * AUR_PACKET_SIZE for each direction. */
-    float *numbers;
+    float *numbers; /* of the caller's method: see gather.h */
 } aur_gather_sums;
 
 /* Adds radiance that leaves a lane's shading point towards the camera. */

@@ -33,12 +33,13 @@ typedef struct gather_tile {
 /* NULL when out of memory. */
 static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     const aur_gather_rules *const rules = &plan->rules;
-    /* Per direction of the largest rule of the caller's method, or per sample of merged rules. */
-    size_t numbers =
-        rules->merged != NULL ? 2 * aur_merged_rule_samples(rules->merged) * (AUR_PACKET_SIZE + 1) : 0;
-    for (size_t i = 0; i < rules->count && rules->method != NULL; ++i)
-        if (3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count > numbers)
-            numbers = 3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count;
+    /* Of a caller's method: for each direction of the diffuse pattern and of the largest glossy one. */
+    size_t glossy = 0;
+    for (size_t i = 1; i < rules->count; ++i)
+        if (rules->lobes[i].rule.count > glossy)
+            glossy = rules->lobes[i].rule.count;
+    const size_t numbers =
+        rules->method != NULL ? 3 * AUR_PACKET_SIZE * (rules->lobes[0].rule.count + glossy) : 0;
     gather_tile *const work = aligned_alloc(64, (sizeof *work + 63) / 64 * 64);
     if (work == NULL)
         return NULL;
@@ -333,7 +334,7 @@ static void spread_stratum(const gather_tile *work, const aur_pixel_strata *pixe
             if (near)
                 to[3 + c] += seen * stratum->pool_adds[c] / stratum->shaded;
         }
-        if (work->surface_points.plan->rules.method != NULL)
+        if (work->surface_points.plan->rules.whole)
             to[3] += seen * (double)pixel->directions;
         to[channels - 1] += seen;
     }
@@ -388,7 +389,7 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
                 for (size_t c = 0; c < 3; ++c)
                     aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
             }
-            if (work->surface_points.plan->rules.method != NULL)
+            if (work->surface_points.plan->rules.whole)
                 aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
 }

@@ -2,6 +2,7 @@
 #include "points/quadrature/tables/weight_table.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "points/base/array.h"
 #include "points/base/error.h"
@@ -161,6 +162,15 @@ aur_result aur_weight_table_points(const aur_weight_table *table, double radians
                             : result;
 }
 
+aur_result aur_weight_table_uniform(const aur_weight_table *table, size_t capacity, double *xyz,
+                                    aur_error *error) {
+    const size_t numbers = 3 * table->oswa->count[1];
+    const aur_result result = aur_check_capacity(numbers, capacity, error);
+    if (result == AUR_OK)
+        memcpy(xyz, table->oswa->uniform[1], numbers * sizeof *xyz);
+    return result;
+}
+
 /* The part of an angle among `steps` equal parts of [0, pi/2], and the fraction within it. */
 static size_t locate_step(size_t steps, float radians, float *part) {
     const float last = (float)steps;
@@ -170,6 +180,10 @@ static size_t locate_step(size_t steps, float radians, float *part) {
     index -= index == steps;
     *part = position - (float)index;
     return index;
+}
+
+const float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
+    return aur_weight_table_mutable_row(table, row);
 }
 
 size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians, float *part) {

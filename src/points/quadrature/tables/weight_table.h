@@ -58,16 +58,10 @@ static inline double aur_weight_table_angle(const aur_weight_table *table, size_
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* The weights of the first lobe, if it has samples, followed by those of the mirror lobe. */
-static inline float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
+/* aur_weight_table_row, for the builder. */
+static inline float *aur_weight_table_mutable_row(const aur_weight_table *table, size_t row) {
     return table->weights + row * aur_weight_table_width(table);
 }
-
-/* The row r at the lower end of the piece of an angle (clamped to [0, pi/2]); the weights at the angle are (1
- * - *part) times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer,
- * but not part of the public interface. */
-AUR_INTERNAL size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
-                                            float *part);
 
 /* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
 aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *grid,
@@ -89,14 +83,6 @@ enum { AUR_WEIGHT_TABLE_KEY_CAPACITY = 4096 };
 /* A text of everything that determines a table; all fields of the grid are used. Errors: ARGUMENT. */
 aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weight_table_grid *grid,
                                 uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]);
-
-/* Builds a table as aur_weight_table_build does, or reads it from the cache of earlier runs
- * (points/base/file.h); a built table is stored there. Exported for the renderer, but not part of the public
- * interface. */
-AUR_INTERNAL aur_result aur_weight_table_find(const aur_oswa_options *options,
-                                              const aur_weight_table_grid *grid, size_t threads,
-                                              const aur_progress *progress, aur_weight_table **table,
-                                              aur_error *error);
 
 /* The checksum at the end of a file, of all bytes before it. */
 uint64_t aur_weight_table_check_sum(const char *data, size_t size);

@@ -107,7 +107,7 @@ typedef struct angle_work {
 static aur_result solve_row(const angle_work *work, const aur_oswa_angle *angle, size_t row,
                             aur_error *error) {
     const aur_weight_table *const table = work->table;
-    float *const target = aur_weight_table_row(table, row);
+    float *const target = aur_weight_table_mutable_row(table, row);
     const size_t width = aur_weight_table_width(table);
     if (memchr(work->taken, true, table->size) == NULL) { /* with few samples all may be hidden */
         memset(target, 0, width * sizeof *target);
@@ -149,7 +149,7 @@ static aur_result build_sides(const angle_work *work, const aur_oswa_angle *angl
     take(work, interval, piece);
     if (!has_before || memcmp(work->taken, work->before, table->size * sizeof *work->taken) != 0)
         return solve_row(work, angle, row, error);
-    memcpy(aur_weight_table_row(table, row), aur_weight_table_row(table, row - 1),
+    memcpy(aur_weight_table_mutable_row(table, row), aur_weight_table_mutable_row(table, row - 1),
            aur_weight_table_width(table) * sizeof *table->weights);
     return AUR_OK;
 }
@@ -254,7 +254,7 @@ static void each_piece(const aur_weight_table *table, size_t item,
             end = last ? 2 * (size_t)table->first[interval] : 2 * (size_t)table->first[interval + 1] - 1;
         }
         move(bytes, (end - first) * aur_weight_table_width(table) * sizeof *table->weights,
-             aur_weight_table_row(table, first));
+             aur_weight_table_mutable_row(table, first));
     }
 }
 

@@ -1,9 +1,6 @@
-#include "render/gather/rule_merged.h"
+#include "merged_rule.h"
 
 #include <stdlib.h>
-
-#include "points/base/error.h"
-#include "points/quadrature/tables/weight_table.h"
 
 /* --- creation */
 
@@ -16,25 +13,25 @@ static size_t angle_count(double exponent) {
     return count;
 }
 
-static aur_oswa_options oswa_options(const aur_merged_rule_options *options,
-                                     const aur_weights_options *weights) {
-    const aur_gather_rule_options *const pattern = &options->pattern;
+static aur_oswa_options oswa_options(const lab_merged_options *options, const aur_weights_options *weights) {
+    const lab_gather_settings *const o = options->settings;
+    const aur_gather_common *const common = options->common;
     return (aur_oswa_options){.size = sizeof(aur_oswa_options),
-                              .set = pattern->set,
-                              .count = pattern->count,
-                              .mirror_count = options->glossy_count,
+                              .set = o->gather.pattern,
+                              .count = options->count[0],
+                              .mirror_count = options->count[1],
                               .lobe = {.exponent = 1.0},
                               .mirror_lobe = {.exponent = options->exponent},
-                              .optimal_density = pattern->optimal_density,
-                              .clipped = options->clipped && options->method == AUR_WEIGHTS_OSWA,
-                              .map = pattern->map,
-                              .scramble = pattern->scramble,
-                              .seed = pattern->seed,
-                              .smoothness = pattern->smoothness,
+                              .optimal_density = o->gather.density == AUR_GATHER_DENSITY_OPTIMAL,
+                              .clipped = o->gather.clip && o->weights == LAB_WEIGHTS_OSWA,
+                              .map = common->map,
+                              .scramble = common->scramble,
+                              .seed = common->seed,
+                              .smoothness = o->gather.smoothness,
                               .weights = weights};
 }
 
-static aur_result allocate(aur_merged_rule *rule, aur_error *error) {
+static aur_result allocate(lab_merged_rule *rule, aur_error *error) {
     float *next = malloc(3 * rule->rotations * (rule->count[0] + rule->count[1]) * sizeof *next);
     if (next == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu + %zu directions",
@@ -46,11 +43,11 @@ static aur_result allocate(aur_merged_rule *rule, aur_error *error) {
 }
 
 /* The patterns in all their rotations; at the angle 0 both axes are +z. */
-static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options *options, aur_error *error) {
+static aur_result fill_directions(lab_merged_rule *rule, const aur_oswa_options *options, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
     double *const xyz = malloc(3 * size * sizeof *xyz);
     if (xyz == NULL)
-        return aur_fail_memory(error);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a rule");
     aur_result result = AUR_OK;
     if (rule->table == NULL)
         result = aur_oswa_create(options, &rule->oswa, error);
@@ -73,19 +70,19 @@ static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options 
     return result;
 }
 
-static void fill_densities(aur_merged_rule *rule) {
+static void fill_densities(lab_merged_rule *rule) {
     for (size_t pattern = 0; pattern < 2; ++pattern) {
         const double exponent = rule->drawn_exponent[pattern];
-        const double scale = (double)rule->subset_count[pattern] * (exponent + 1.0) / (2.0 * AUR_PI);
-        for (size_t i = 0; i <= AUR_MERGED_DENSITY_STEPS; ++i)
-            rule->density[pattern][i] = (float)(scale * pow((double)i / AUR_MERGED_DENSITY_STEPS, exponent));
+        const double scale = (double)rule->subset_count[pattern] * (exponent + 1.0) / (2.0 * LAB_PI);
+        for (size_t i = 0; i <= LAB_MERGED_DENSITY_STEPS; ++i)
+            rule->density[pattern][i] = (float)(scale * pow((double)i / LAB_MERGED_DENSITY_STEPS, exponent));
     }
 }
 
 /* The index of the weight of sample i (of both patterns) for a lobe in the order of subsets, each of which
  * has 2 * samples weights in sequence. */
-static size_t slot_of(const aur_merged_rule *rule, size_t lobe, size_t i) {
-    const size_t samples = aur_merged_rule_samples(rule);
+static size_t slot_of(const lab_merged_rule *rule, size_t lobe, size_t i) {
+    const size_t samples = lab_merged_rule_samples(rule);
     const size_t pattern = i < rule->count[0] ? 0 : 1, index = i - pattern * rule->count[0];
     return index % rule->subsets * 2 * samples + lobe * samples + pattern * rule->subset_count[0] +
            index / rule->subsets;
@@ -93,7 +90,7 @@ static size_t slot_of(const aur_merged_rule *rule, size_t lobe, size_t i) {
 
 /* Copies the table's rows in that order and scales them to the lobes' integrals: pi for the diffuse lobe. The
  * integral of the glossy lobe depends on the angle and is applied at look-up. */
-static aur_result compile(aur_merged_rule *rule, aur_error *error) {
+static aur_result compile(lab_merged_rule *rule, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
     const size_t row_count = aur_weight_table_rows(rule->table);
     rule->rows = malloc(row_count * 2 * size * sizeof *rule->rows);
@@ -103,27 +100,31 @@ static aur_result compile(aur_merged_rule *rule, aur_error *error) {
         for (size_t i = 0; i < 2 * size; ++i) {
             const size_t lobe = i / size;
             rule->rows[row * 2 * size + slot_of(rule, lobe, i % size)] =
-                (float)rule->subsets * (lobe == 0 ? AUR_PI_F : 1.0f) *
+                (float)rule->subsets * (lobe == 0 ? (float)LAB_PI : 1.0f) *
                 aur_weight_table_row(rule->table, row)[i];
         }
     return AUR_OK;
 }
 
-static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
+static aur_result prepare(lab_merged_rule *rule, const lab_merged_options *options, aur_error *error) {
+    const lab_gather_settings *const o = options->settings;
+    const aur_gather_common *const common = options->common;
     /* The published method does not constrain the sum. */
     const aur_weights_options weights = {.size = sizeof weights,
-                                         .regularization = options->regularization,
-                                         .sum_constraint = options->method == AUR_WEIGHTS_OSWA};
+                                         .regularization = o->regularization,
+                                         .sum_constraint = o->weights == LAB_WEIGHTS_OSWA};
     aur_oswa_options requested = oswa_options(options, &weights);
     const aur_weight_table_grid grid = {.size = sizeof grid,
                                         .angle_count = angle_count(options->exponent),
                                         .roughness_count = 1,
-                                        .rotation_count = options->pattern.rotations};
+                                        .rotation_count = rule->rotations};
     aur_result result = AUR_OK;
-    if (options->method == AUR_WEIGHTS_OSWA)
-        result = (options->use_cache ? aur_weight_table_find : aur_weight_table_build)(
-            &requested, &grid, options->threads, &options->progress, &rule->table, error);
-    if (options->method == AUR_WEIGHTS_SOLVE)
+    if (o->weights == LAB_WEIGHTS_OSWA)
+        result = common->use_cache ? aur_weight_table_find(&requested, &grid, common->threads,
+                                                           common->progress, &rule->table, error)
+                                   : aur_weight_table_build(&requested, &grid, common->threads,
+                                                            common->progress, &rule->table, error);
+    if (o->weights == LAB_WEIGHTS_SOLVE)
         requested.published_z = (aur_z_grid){
             .angle_count = 64, .exponent_count = 32, .largest_exponent = fmax(1.0, options->exponent)};
     if (result == AUR_OK)
@@ -133,16 +134,17 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
     return result;
 }
 
-static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
-    const aur_gather_rule_options *const shared = &options->pattern;
-    const double power = shared->optimal_density ? 2.0 / (shared->smoothness + 1.0) : 1.0;
-    *rule = (aur_merged_rule){.method = options->method,
-                              .subsets = options->subsets,
+static aur_result create(lab_merged_rule *rule, const lab_merged_options *options, aur_error *error) {
+    const aur_gather_settings *const shared = &options->settings->gather;
+    const double power =
+        shared->density == AUR_GATHER_DENSITY_OPTIMAL ? 2.0 / (shared->smoothness + 1.0) : 1.0;
+    *rule = (lab_merged_rule){.method = options->settings->weights,
+                              .subsets = options->common->subsets,
                               .rotations = shared->rotations,
-                              .count = {shared->count, options->glossy_count},
+                              .count = {options->count[0], options->count[1]},
                               .exponent = options->exponent,
                               .drawn_exponent = {power, power * options->exponent},
-                              .seed = shared->seed};
+                              .seed = options->common->seed};
     for (size_t pattern = 0; pattern < 2; ++pattern)
         rule->subset_count[pattern] = rule->count[pattern] / rule->subsets;
     fill_densities(rule);
@@ -150,29 +152,29 @@ static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *o
     return result == AUR_OK ? prepare(rule, options, error) : result;
 }
 
-aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_merged_rule **rule,
+aur_result lab_merged_rule_create(const lab_merged_options *options, lab_merged_rule **rule,
                                   aur_error *error) {
-    const size_t diffuse = options->pattern.count, glossy = options->glossy_count, parts = options->subsets;
+    const size_t diffuse = options->count[0], glossy = options->count[1], parts = options->common->subsets;
     *rule = NULL;
-    if (options->pattern.rotations == 0)
+    if (options->settings->gather.rotations == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "weights of merged samples need prepared rotations: at least 1, not 0");
     if (parts == 0 || diffuse % parts != 0 || glossy % parts != 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu + %zu directions are not split evenly by %zu samples",
                         diffuse, glossy, parts);
-    aur_merged_rule *const created = calloc(1, sizeof *created);
+    lab_merged_rule *const created = calloc(1, sizeof *created);
     if (created == NULL)
-        return aur_fail_memory(error);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a rule");
     const aur_result result = create(created, options, error);
     if (result != AUR_OK) {
-        aur_merged_rule_destroy(created);
+        lab_merged_rule_destroy(created);
         return result;
     }
     *rule = created;
     return AUR_OK;
 }
 
-void aur_merged_rule_destroy(aur_merged_rule *rule) {
+void lab_merged_rule_destroy(lab_merged_rule *rule) {
     if (rule == NULL)
         return;
     aur_weight_table_destroy(rule->table);
@@ -184,28 +186,31 @@ void aur_merged_rule_destroy(aur_merged_rule *rule) {
 
 /* --- at a shading point */
 
-static void look_up(const aur_merged_rule *rule, size_t rotation, size_t subset, float radians,
+static void look_up(const lab_merged_rule *rule, size_t rotation, size_t subset, float radians,
                     float *weights) {
     float part;
     const size_t row = aur_weight_table_locate(rule->table, rotation, radians, &part);
-    const size_t samples = aur_merged_rule_samples(rule);
+    const size_t samples = lab_merged_rule_samples(rule);
     const size_t row_size = 2 * samples * rule->subsets;
     const float *const below = rule->rows + row * row_size + subset * 2 * samples;
-    rule->table->blend(2 * samples, below, below + row_size, part, weights);
+    const float *const above = below + row_size;
+    for (size_t i = 0; i < 2 * samples; ++i)
+        weights[i] = below[i] + part * (above[i] - below[i]);
     const float mass = (float)aur_weight_table_mass(rule->table, (double)radians, 0.0);
     for (size_t i = samples; i < 2 * samples; ++i)
         weights[i] *= mass;
 }
 
 /* cos^exponent / (n q + n' q') for each lobe and sample; below the surface there is no light. */
-static void balance(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
+static void balance(const lab_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                     float *weights) {
-    const size_t samples = aur_merged_rule_samples(rule);
+    const size_t samples = lab_merged_rule_samples(rule);
     const float sine = sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine));
     float scale[2], drawn[2];
     for (size_t pattern = 0; pattern < 2; ++pattern) {
         drawn[pattern] = (float)rule->drawn_exponent[pattern];
-        scale[pattern] = (float)rule->subset_count[pattern] * (drawn[pattern] + 1.0f) / (2.0f * AUR_PI_F);
+        scale[pattern] =
+            (float)rule->subset_count[pattern] * (drawn[pattern] + 1.0f) / (2.0f * (float)LAB_PI);
     }
     size_t at = 0;
     for (size_t pattern = 0; pattern < 2; ++pattern) {
@@ -225,9 +230,9 @@ static void balance(const aur_merged_rule *rule, size_t rotation, size_t subset,
     }
 }
 
-static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, float radians,
+static bool solve(const lab_merged_rule *rule, size_t rotation, size_t subset, float radians,
                   float *weights) {
-    const size_t size = rule->count[0] + rule->count[1], row = 2 * aur_merged_rule_samples(rule);
+    const size_t size = rule->count[0] + rule->count[1], row = 2 * lab_merged_rule_samples(rule);
     double angles[2], mass = 0.0;
     aur_oswa_turns(rule->seed, rotation, angles);
     double *const found = malloc(2 * size * sizeof *found);
@@ -239,33 +244,33 @@ static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, f
         const size_t lobe = i / size, at = slot_of(rule, lobe, i % size);
         if (at / row != subset)
             continue;
-        weights[at % row] = (float)((double)rule->subsets * (lobe == 0 ? AUR_PI : mass) * found[i]);
+        weights[at % row] = (float)((double)rule->subsets * (lobe == 0 ? LAB_PI : mass) * found[i]);
         solved = isfinite(weights[at % row]);
     }
     free(found);
     return solved;
 }
 
-bool aur_merged_rule_weights(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
+bool lab_merged_rule_weights(const lab_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                              float *weights) {
     const float inside = cosine > 0.0f ? (cosine < 1.0f ? cosine : 1.0f) : 0.0f;
-    if (rule->method == AUR_WEIGHTS_SOLVE)
+    if (rule->method == LAB_WEIGHTS_SOLVE)
         return solve(rule, rotation, subset, acosf(inside), weights);
-    if (rule->method == AUR_WEIGHTS_OSWA)
+    if (rule->method == LAB_WEIGHTS_OSWA)
         look_up(rule, rotation, subset, acosf(inside), weights);
     else
         balance(rule, rotation, subset, inside, weights);
     return true;
 }
 
-void aur_merged_rule_frames(aur_vector normal, aur_vector mirror, bool mirrored, aur_frame frames[2]) {
-    const float cosine = aur_vector_dot(normal, mirror);
-    const aur_vector along = aur_vector_add_scaled(mirror, -cosine, normal);
-    const float sine = aur_vector_length(along);
+void lab_merged_rule_frames(lab_vector normal, lab_vector mirror, bool mirrored, lab_frame frames[2]) {
+    const float cosine = lab_dot(normal, mirror);
+    const lab_vector along = lab_add_scaled(mirror, -cosine, normal);
+    const float sine = sqrtf(lab_dot(along, along));
     /* Where the plane is lost any will do. */
-    const aur_vector x = sine > 1e-6f ? aur_vector_scale(along, -1.0f / sine) : aur_frame_about(normal).x;
-    const aur_vector y = aur_vector_scale(aur_vector_cross(normal, x), mirrored ? -1.0f : 1.0f);
-    frames[0] = (aur_frame){x, y, normal};
-    frames[1] = (aur_frame){
-        aur_vector_add_scaled(aur_vector_scale(x, cosine), sine > 1e-6f ? sine : 0.0f, normal), y, mirror};
+    const lab_vector x = sine > 1e-6f ? lab_scale(along, -1.0f / sine) : lab_frame_about(normal).x;
+    const lab_vector y = lab_scale(lab_cross(normal, x), mirrored ? -1.0f : 1.0f);
+    frames[0] = (lab_frame){x, y, normal};
+    frames[1] =
+        (lab_frame){lab_add_scaled(lab_scale(x, cosine), sine > 1e-6f ? sine : 0.0f, normal), y, mirror};
 }

@@ -4,49 +4,52 @@
 
 #include "check.h"
 
-#include "render/gather/rule_merged.h"
+#include "lab/gathering/merged_rule.h"
 
 #define PI 3.14159265358979323846
 
 enum { DIFFUSE = 48, GLOSSY = 24, SIZE = DIFFUSE + GLOSSY, ROTATIONS = 3 };
 
-static aur_merged_rule_options options_of(aur_gather_weights method, double exponent, bool clipped,
-                                          size_t subsets) {
-    return (aur_merged_rule_options){.pattern = {.set = "sobol",
-                                                 .count = DIFFUSE,
-                                                 .rotations = ROTATIONS,
-                                                 .scramble = AUR_SCRAMBLE_DIGIT,
-                                                 .smoothness = 1.5,
-                                                 .seed = 77},
-                                     .method = method,
-                                     .glossy_count = GLOSSY,
-                                     .subsets = subsets,
-                                     .exponent = exponent,
-                                     .clipped = clipped,
-                                     .regularization = method == AUR_WEIGHTS_SOLVE ? 0.5 : 1e-6,
-                                     .threads = 2};
+/* What a rule is created for. */
+typedef struct inputs {
+    lab_gather_settings settings;
+    aur_gather_common common;
+    lab_merged_options options;
+} inputs;
+
+static void set_inputs(inputs *in, lab_weights method, double exponent, bool clipped, size_t subsets) {
+    *in = (inputs){.settings = {.gather = {.pattern = "sobol",
+                                           .rotations = ROTATIONS,
+                                           .smoothness = 1.5,
+                                           .clip = clipped},
+                                .weights = method,
+                                .regularization = method == LAB_WEIGHTS_SOLVE ? 0.5 : 1e-6},
+                   .common = {.scramble = AUR_SCRAMBLE_DIGIT, .seed = 77, .subsets = subsets, .threads = 2},
+                   .options = {.settings = &in->settings,
+                               .common = &in->common,
+                               .count = {DIFFUSE, GLOSSY},
+                               .exponent = exponent}};
 }
 
-static aur_merged_rule *create(const aur_merged_rule_options *options) {
-    aur_merged_rule *pair;
-    assert_int_equal(aur_merged_rule_create(options, &pair, NULL), AUR_OK);
+static lab_merged_rule *create(const inputs *in) {
+    lab_merged_rule *pair;
+    assert_int_equal(lab_merged_rule_create(&in->options, &pair, NULL), AUR_OK);
     return pair;
 }
 
 /* The directions of a subset in the frame of normal and plane of reflection, as the gather loop makes them.
  */
-static void surface_point(const aur_merged_rule *pair, size_t rotation, size_t subset, double angle,
+static void surface_point(const lab_merged_rule *pair, size_t rotation, size_t subset, double angle,
                           bool mirrored, double *xyz) {
-    aur_frame frames[2];
-    aur_merged_rule_frames((aur_vector){0.0f, 0.0f, 1.0f},
-                           (aur_vector){-(float)sin(angle), 0.0f, (float)cos(angle)}, mirrored, frames);
+    lab_frame frames[2];
+    lab_merged_rule_frames((lab_vector){0.0f, 0.0f, 1.0f},
+                           (lab_vector){-(float)sin(angle), 0.0f, (float)cos(angle)}, mirrored, frames);
     for (size_t pattern = 0; pattern < 2; ++pattern) {
         const size_t first = rotation * pair->count[pattern] + subset * pair->subset_count[pattern];
         for (size_t i = 0; i < pair->subset_count[pattern]; ++i, xyz += 3) {
-            const aur_vector local = {pair->direction[pattern][0][first + i],
-                                      pair->direction[pattern][1][first + i],
-                                      pair->direction[pattern][2][first + i]};
-            const aur_vector u = aur_frame_to_world(&frames[pattern], local);
+            lab_vector u = lab_scale(frames[pattern].x, pair->direction[pattern][0][first + i]);
+            u = lab_add_scaled(u, pair->direction[pattern][1][first + i], frames[pattern].y);
+            u = lab_add_scaled(u, pair->direction[pattern][2][first + i], frames[pattern].z);
             const double length =
                 sqrt((double)u.x * (double)u.x + (double)u.y * (double)u.y + (double)u.z * (double)u.z);
             xyz[0] = (double)u.x / length;
@@ -83,16 +86,17 @@ static void tables_are_solves(void **state) {
     } cases[] = {{20.0, true, false}, {20.0, false, true}, {150.0, true, true}, {3.3, true, false}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
         const double m = cases[c].exponent;
-        aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, m, cases[c].clipped, 1);
-        options.pattern.optimal_density = cases[c].optimal;
-        aur_merged_rule *const pair = create(&options);
+        inputs in;
+        set_inputs(&in, LAB_WEIGHTS_OSWA, m, cases[c].clipped, 1);
+        in.settings.gather.density = cases[c].optimal ? AUR_GATHER_DENSITY_OPTIMAL : AUR_GATHER_DENSITY_SAME;
+        lab_merged_rule *const pair = create(&in);
         double looked_up_total = 0.0, solved_total = 0.0, equal_total = 0.0;
         for (size_t step = 0; step < 18; ++step) {
             const double angle = (0.4 + 5.0 * (double)step) * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], from_table[SIZE], equal[SIZE] = {0}, exact[2 * SIZE];
             surface_point(pair, step % ROTATIONS, 0, angle, step % 2 == 1, xyz);
-            aur_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
+            lab_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
             aur_potential *const lobes[2] = {lobe_at(1.0, 0.0, false), lobe_at(m, angle, cases[c].clipped)};
             const aur_potential *const potentials[2] = {lobes[0], lobes[1]};
             assert_int_equal(
@@ -124,7 +128,7 @@ static void tables_are_solves(void **state) {
         const double loss = (looked_up_total - solved_total) / (equal_total - solved_total);
         print_message("m %g: look-ups lose %.3f %% of the gain\n", m, 100.0 * loss);
         assert_true(loss < 0.005);
-        aur_merged_rule_destroy(pair);
+        lab_merged_rule_destroy(pair);
     }
 }
 
@@ -132,16 +136,17 @@ static void tables_are_solves(void **state) {
  * of the samples is hidden, over all subsets together. */
 static void constants_are_exact(void **state) {
     (void)state;
-    const aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 4);
-    aur_merged_rule *const pair = create(&options);
-    assert_int_equal(aur_merged_rule_samples(pair), SIZE / 4);
+    inputs in;
+    set_inputs(&in, LAB_WEIGHTS_OSWA, 20.0, true, 4);
+    lab_merged_rule *const pair = create(&in);
+    assert_int_equal(lab_merged_rule_samples(pair), SIZE / 4);
     for (size_t step = 0; step <= 30; ++step) {
         const double angle = 3.0 * (double)step * PI / 180.0;
         double sums[2] = {0.0, 0.0};
         for (size_t subset = 0; subset < 4; ++subset) {
             float weights[2 * SIZE / 4];
             double xyz[3 * SIZE / 4];
-            aur_merged_rule_weights(pair, step % ROTATIONS, subset, (float)cos(angle), weights);
+            lab_merged_rule_weights(pair, step % ROTATIONS, subset, (float)cos(angle), weights);
             surface_point(pair, step % ROTATIONS, subset, angle, false, xyz);
             for (size_t i = 0; i < SIZE / 4; ++i) {
                 /* Hidden samples carry nothing. */
@@ -156,22 +161,23 @@ static void constants_are_exact(void **state) {
         assert_relative(sums[1], aur_potential_mass(lobe), 2e-4);
         aur_potential_destroy(lobe);
     }
-    aur_merged_rule_destroy(pair);
+    lab_merged_rule_destroy(pair);
 }
 
 /* Subsets are a permutation: together they hold the directions and weights of the whole. */
 static void parts_make_the_whole(void **state) {
     (void)state;
-    for (int method = AUR_WEIGHTS_MIS; method <= AUR_WEIGHTS_SOLVE; ++method) {
-        const aur_merged_rule_options one = options_of((aur_gather_weights)method, 20.0, true, 1);
-        const aur_merged_rule_options four = options_of((aur_gather_weights)method, 20.0, true, 4);
-        aur_merged_rule *const whole = create(&one);
-        aur_merged_rule *const shared = create(&four);
+    for (int method = LAB_WEIGHTS_MIS; method <= LAB_WEIGHTS_SOLVE; ++method) {
+        inputs one, four;
+        set_inputs(&one, (lab_weights)method, 20.0, true, 1);
+        set_inputs(&four, (lab_weights)method, 20.0, true, 4);
+        lab_merged_rule *const whole = create(&one);
+        lab_merged_rule *const shared = create(&four);
         float expected[2 * SIZE];
-        aur_merged_rule_weights(whole, 1, 0, 0.5f, expected);
+        lab_merged_rule_weights(whole, 1, 0, 0.5f, expected);
         for (size_t subset = 0; subset < 4; ++subset) {
             float weights[2 * SIZE / 4];
-            aur_merged_rule_weights(shared, 1, subset, 0.5f, weights);
+            lab_merged_rule_weights(shared, 1, subset, 0.5f, weights);
             for (size_t pattern = 0, at = 0; pattern < 2; ++pattern) {
                 const size_t count = shared->subset_count[pattern];
                 for (size_t i = 0; i < count; ++i, ++at) {
@@ -186,8 +192,8 @@ static void parts_make_the_whole(void **state) {
                 }
             }
         }
-        aur_merged_rule_destroy(whole);
-        aur_merged_rule_destroy(shared);
+        lab_merged_rule_destroy(whole);
+        lab_merged_rule_destroy(shared);
     }
 }
 
@@ -195,15 +201,16 @@ static void parts_make_the_whole(void **state) {
 static void balance_is_the_library_s(void **state) {
     (void)state;
     for (int optimal = 0; optimal < 2; ++optimal) {
-        aur_merged_rule_options options = options_of(AUR_WEIGHTS_MIS, 20.0, true, 1);
-        options.pattern.optimal_density = optimal == 1;
-        aur_merged_rule *const pair = create(&options);
+        inputs in;
+        set_inputs(&in, LAB_WEIGHTS_MIS, 20.0, true, 1);
+        in.settings.gather.density = optimal == 1 ? AUR_GATHER_DENSITY_OPTIMAL : AUR_GATHER_DENSITY_SAME;
+        lab_merged_rule *const pair = create(&in);
         for (size_t step = 0; step < 9; ++step) {
             const double angle = 10.0 * (double)step * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], expected[SIZE];
             surface_point(pair, 0, 0, angle, false, xyz);
-            aur_merged_rule_weights(pair, 0, 0, (float)cos(angle), weights);
+            lab_merged_rule_weights(pair, 0, 0, (float)cos(angle), weights);
             const double power = optimal == 1 ? 0.8 : 1.0;
             const aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = power}},
                                                 {.count = GLOSSY,
@@ -223,40 +230,42 @@ static void balance_is_the_library_s(void **state) {
                 aur_potential_destroy(target);
             }
         }
-        aur_merged_rule_destroy(pair);
+        lab_merged_rule_destroy(pair);
     }
 }
 
 /* The pdf that weights light sampling is that of the directions. */
 static void densities(void **state) {
     (void)state;
-    aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 4);
-    options.pattern.optimal_density = true;
-    aur_merged_rule *const pair = create(&options);
+    inputs in;
+    set_inputs(&in, LAB_WEIGHTS_OSWA, 20.0, true, 4);
+    in.settings.gather.density = AUR_GATHER_DENSITY_OPTIMAL;
+    lab_merged_rule *const pair = create(&in);
     for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.05f) {
         const double expected = 12.0 * 1.8 / (2.0 * PI) * pow((double)cosine, 0.8) +
                                 6.0 * 17.0 / (2.0 * PI) * pow((double)cosine, 16.0);
-        assert_relative(aur_merged_rule_density(pair, cosine, cosine), expected, 0.02 / (double)cosine);
+        assert_relative(lab_merged_rule_density(pair, cosine, cosine), expected, 0.02 / (double)cosine);
     }
-    assert_true(aur_merged_rule_density(pair, -0.5f, -0.1f) == 0.0f);
-    aur_merged_rule_destroy(pair);
+    assert_true(lab_merged_rule_density(pair, -0.5f, -0.1f) == 0.0f);
+    lab_merged_rule_destroy(pair);
 }
 
 static void refuses(void **state) {
     (void)state;
-    aur_merged_rule *pair;
+    lab_merged_rule *pair;
     aur_error error;
-    aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 1);
-    options.pattern.rotations = 0;
-    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
+    inputs in;
+    set_inputs(&in, LAB_WEIGHTS_OSWA, 20.0, true, 1);
+    in.settings.gather.rotations = 0;
+    assert_int_equal(lab_merged_rule_create(&in.options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
-    options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 5);
-    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
-    options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 1);
-    options.pattern.set = "sobl";
-    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_NAME);
-    options = options_of(AUR_WEIGHTS_MIS, -1.0, true, 1);
-    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
+    set_inputs(&in, LAB_WEIGHTS_OSWA, 20.0, true, 5);
+    assert_int_equal(lab_merged_rule_create(&in.options, &pair, &error), AUR_ERROR_ARGUMENT);
+    set_inputs(&in, LAB_WEIGHTS_OSWA, 20.0, true, 1);
+    in.settings.gather.pattern = "sobl";
+    assert_int_equal(lab_merged_rule_create(&in.options, &pair, &error), AUR_ERROR_NAME);
+    set_inputs(&in, LAB_WEIGHTS_MIS, -1.0, true, 1);
+    assert_int_equal(lab_merged_rule_create(&in.options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
 }
 
@@ -264,18 +273,19 @@ static void refuses(void **state) {
  * size, which is too small because the rule omits its second pattern. */
 static void unsolved_systems_are_said(void **state) {
     (void)state;
-    const aur_merged_rule_options options = options_of(AUR_WEIGHTS_SOLVE, 20.0, true, 1);
-    aur_merged_rule *const rule = create(&options);
+    inputs in;
+    set_inputs(&in, LAB_WEIGHTS_SOLVE, 20.0, true, 1);
+    lab_merged_rule *const rule = create(&in);
     float weights[2 * SIZE];
-    assert_true(aur_merged_rule_weights(rule, 0, 0, 0.5f, weights));
+    assert_true(lab_merged_rule_weights(rule, 0, 0, 0.5f, weights));
     for (size_t i = 0; i < 2 * SIZE; ++i)
         assert_true(isfinite(weights[i]));
-    aur_merged_rule broken = *rule;
+    lab_merged_rule broken = *rule;
     broken.count[1] = 0;
-    assert_false(aur_merged_rule_weights(&broken, 0, 0, 0.5f, weights));
+    assert_false(lab_merged_rule_weights(&broken, 0, 0, 0.5f, weights));
     for (size_t i = 0; i < 2 * SIZE; ++i)
         assert_true(isnan(weights[i]));
-    aur_merged_rule_destroy(rule);
+    lab_merged_rule_destroy(rule);
 }
 
 int main(void) {

@@ -9,37 +9,30 @@
 
 #include <aureole/quadrature.h>
 
-#include "render/gather/settings.h"
-#include "render/sampling/rule.h"
+#include "settings.h"
+#include "vectors.h"
 
-typedef struct aur_merged_rule_options {
-    /* For both patterns; its count is the diffuse one's. At least one rotation is prepared. The set is
-     * scrambled once. */
-    aur_gather_rule_options pattern;
-    aur_gather_weights method; /* OSWA, MIS or SOLVE */
-    size_t glossy_count;
-    size_t subsets;  /* samples of a pixel: both counts are multiples */
-    double exponent; /* of the glossy lobe */
-    bool clipped;    /* OSWA: the glossy lobe ends at the horizon */
-    double regularization;
-    size_t threads; /* that compute the table; 0: all */
-    bool use_cache; /* of earlier runs, for the table */
-    aur_progress progress;
-} aur_merged_rule_options;
+typedef struct lab_merged_options {
+    const lab_gather_settings
+        *settings;                   /* weights OSWA, MIS or SOLVE; at least one rotation; density is set */
+    const aur_gather_common *common; /* both counts are multiples of its subsets */
+    size_t count[2];                 /* directions of the diffuse and of the glossy pattern */
+    double exponent;                 /* of the glossy lobe */
+} lab_merged_options;
 
-enum { AUR_MERGED_DENSITY_STEPS = 1024 };
+enum { LAB_MERGED_DENSITY_STEPS = 1024 };
 
 /* Immutable. Patterns are numbered 0 (diffuse) and 1 (glossy). Their directions are stored by subset: those
  * of subset s begin at s * count / subsets. */
-typedef struct aur_merged_rule {
-    aur_gather_weights method;
+typedef struct lab_merged_rule {
+    lab_weights method;
     size_t subsets, rotations;
     size_t count[2], subset_count[2]; /* directions per pattern, and per pattern in one subset */
     double exponent;
     float *direction[2][3]; /* x, y, z: rotation after rotation, about the pattern's axis */
     /* Directions per steradian in one subset, by the cosine to the pattern's axis: the pdf for MIS against
      * light sampling. */
-    float density[2][AUR_MERGED_DENSITY_STEPS + 1];
+    float density[2][LAB_MERGED_DENSITY_STEPS + 1];
     double drawn_exponent[2];
     aur_oswa *oswa; /* SOLVE */
     uint64_t seed;
@@ -47,14 +40,14 @@ typedef struct aur_merged_rule {
     /* OSWA: for each row of the table and each subset, the weights of its samples for one lobe, then for the
      * other. */
     float *rows;
-} aur_merged_rule;
+} lab_merged_rule;
 
-aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_merged_rule **rule,
+aur_result lab_merged_rule_create(const lab_merged_options *options, lab_merged_rule **rule,
                                   aur_error *error);
-void aur_merged_rule_destroy(aur_merged_rule *rule); /* NULL is allowed */
+void lab_merged_rule_destroy(lab_merged_rule *rule); /* NULL is allowed */
 
 /* The samples of both patterns in one subset. */
-static inline size_t aur_merged_rule_samples(const aur_merged_rule *rule) {
+static inline size_t lab_merged_rule_samples(const lab_merged_rule *rule) {
     return rule->subset_count[0] + rule->subset_count[1];
 }
 
@@ -62,18 +55,18 @@ static inline size_t aur_merged_rule_samples(const aur_merged_rule *rule) {
  * weights[2 * samples]. `cosine` is the cosine of the angle between normal and mirror direction. The mean
  * over the subsets of the sum of weight * f estimates the integral over the hemisphere (solid angle) of cos *
  * f, and of cos^exponent * f. False if a system could not be solved: the weights are NaN. */
-bool aur_merged_rule_weights(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
+bool lab_merged_rule_weights(const lab_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                              float *weights);
 
 /* The sum of both patterns' densities in a direction, given its cosines to the normal and to the mirror
  * direction. */
-static inline float aur_merged_rule_density(const aur_merged_rule *rule, float normal_cosine,
+static inline float lab_merged_rule_density(const lab_merged_rule *rule, float normal_cosine,
                                             float mirror_cosine) {
-    const float steps = (float)AUR_MERGED_DENSITY_STEPS;
+    const float steps = (float)LAB_MERGED_DENSITY_STEPS;
     const float a = normal_cosine > 0.0f ? (normal_cosine < 1.0f ? normal_cosine : 1.0f) : 0.0f;
     const float b = mirror_cosine > 0.0f ? (mirror_cosine < 1.0f ? mirror_cosine : 1.0f) : 0.0f;
     return rule->density[0][(int)(a * steps)] + rule->density[1][(int)(b * steps)];
 }
 
 /* The frames of the two patterns. `normal` is on the viewer's side, `mirror` the axis of the glossy lobe. */
-void aur_merged_rule_frames(aur_vector normal, aur_vector mirror, bool mirrored, aur_frame frames[2]);
+void lab_merged_rule_frames(lab_vector normal, lab_vector mirror, bool mirrored, lab_frame frames[2]);

@@ -6,8 +6,8 @@
 
 #include "check.h"
 
+#include "lab/gathering/ggx.h"
 #include "program/lab/gather.h"
-#include "render/gather/rule_ggx.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/scene.h"
 
@@ -15,18 +15,13 @@
 
 enum { COUNT = 24, ROTATIONS = 3 };
 
-static aur_ggx_rule rule_of(float alpha) {
-    const aur_ggx_rule_options options = {.pattern = {.set = "spherical-fibonacci",
-                                                      .count = COUNT,
-                                                      .rotations = ROTATIONS,
-                                                      .scramble = AUR_SCRAMBLE_ROTATE,
-                                                      .smoothness = 1.5,
-                                                      .seed = 5},
-                                          .alpha = alpha,
-                                          .regularization = 1e-6,
-                                          .threads = 2};
-    aur_ggx_rule rule;
-    assert_int_equal(aur_ggx_rule_create(&options, &rule, NULL), AUR_OK);
+static lab_ggx_rule *rule_of(float alpha) {
+    const lab_gather_settings settings = {
+        .gather = {.pattern = "spherical-fibonacci", .rotations = ROTATIONS, .smoothness = 1.5},
+        .regularization = 1e-6};
+    const aur_gather_common common = {.scramble = AUR_SCRAMBLE_ROTATE, .seed = 5, .subsets = 1, .threads = 2};
+    lab_ggx_rule *rule;
+    assert_int_equal(lab_ggx_rule_create(&settings, &common, COUNT, alpha, &rule, NULL), AUR_OK);
     return rule;
 }
 
@@ -39,22 +34,23 @@ static double smith(double alpha, double height) {
 static void test_rule(void **state) {
     (void)state;
     const float alpha = 0.3f;
-    aur_ggx_rule rule = rule_of(alpha);
+    lab_ggx_rule *const rule = rule_of(alpha);
     const aur_microfacet facets = {.distribution = AUR_MICROFACET_GGX, .alpha_u = alpha, .alpha_v = alpha};
     for (size_t turn = 0; turn < 12; ++turn) {
         const double angle = 0.05 + 0.12 * (double)turn, azimuth = 0.7 * (double)turn;
         const bool mirrored = turn % 2 == 1;
         const aur_vector view = {(float)(sin(angle) * cos(azimuth)), (float)(sin(angle) * sin(azimuth)),
                                  (float)cos(angle)};
-        const aur_ggx_view seen = aur_ggx_rule_view(&rule, turn % ROTATIONS, mirrored, view);
+        const lab_ggx_view seen =
+            lab_ggx_rule_view(rule, turn % ROTATIONS, mirrored, (const float[3]){view.x, view.y, view.z});
         double xyz[3 * COUNT], sum = 0.0;
-        assert_int_equal(
-            aur_weight_table_points(rule.table, angle, 0.0, turn % ROTATIONS, mirrored, 3 * COUNT, xyz, NULL),
-            AUR_OK);
+        assert_int_equal(aur_weight_table_points(rule->table, angle, 0.0, turn % ROTATIONS, mirrored,
+                                                 3 * COUNT, xyz, NULL),
+                         AUR_OK);
         for (size_t i = 0; i < COUNT; ++i) {
             float point[2];
             aur_vector normal;
-            aur_ggx_view_square(&seen, i, point);
+            lab_ggx_view_square(&seen, i, point);
             const aur_vector light = aur_microfacet_draw_mirrored(&facets, view, point[0], point[1], &normal);
             const double c = cos(azimuth), s = sin(azimuth);
             assert_near(light.x, c * xyz[3 * i] - s * xyz[3 * i + 1], 2e-5);
@@ -65,11 +61,11 @@ static void test_rule(void **state) {
             const double of_view = smith((double)alpha, cos(angle)),
                          of_light = smith((double)alpha, (double)light.z);
             sum +=
-                (double)aur_ggx_view_weight(&seen, i, light.z) * (1.0 + of_view) / (1.0 + of_view + of_light);
+                (double)lab_ggx_view_weight(&seen, i, light.z) * (1.0 + of_view) / (1.0 + of_view + of_light);
         }
-        assert_relative(sum, aur_weight_table_mass(rule.table, angle, 0.0), 1e-4);
+        assert_relative(sum, aur_weight_table_mass(rule->table, angle, 0.0), 1e-4);
     }
-    aur_ggx_rule_release(&rule);
+    lab_ggx_release(rule);
 }
 
 static aur_scene *load(const char *text) {
