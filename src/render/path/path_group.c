@@ -126,14 +126,15 @@ static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface
 static void set_surfaces(aur_path_group *g, uint32_t lanes) {
     aur_packet_prefetch_indices(g->scene, &g->packet, lanes);
     aur_packet_prefetch_vertices(g->scene, &g->packet, lanes);
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t k = aur_first_lane(lanes);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
         const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
         aur_scene_surface(g->scene, &ray, &hit, &g->surfaces[k]);
-        if (!aur_has_lane(g->preset, k))
-            add_emission(g, k, &g->surfaces[k]);
+        aur_surface_prefetch(g->scene, &g->surfaces[k]);
     }
+    for (uint32_t rest = lanes & ~g->preset; rest != 0; rest &= rest - 1)
+        add_emission(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
 }
 
 static aur_vector view_of(const aur_path_group *g, size_t k) {

@@ -49,6 +49,17 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
     return aur_emitter_glows(emitter) ? aur_color_at(&emitter->radiance, surface->texture) : (aur_vector){0};
 }
 
+void aur_surface_prefetch(const aur_scene *scene, const aur_surface *surface) {
+    const aur_bsdf *const bsdf = surface->bsdf;
+    for (size_t i = 0; i < bsdf->texture_count; ++i)
+        bsdf->textures[i]->descriptor->prefetch(bsdf->textures[i], surface->texture);
+    if (surface->emitter == AUR_NO_EMITTER)
+        return;
+    const aur_texture *const texture = scene->emitters[surface->emitter]->radiance.texture;
+    if (texture != NULL && texture->descriptor->prefetch != NULL)
+        texture->descriptor->prefetch(texture, surface->texture);
+}
+
 /* Lights that no ray can hit: points and single directions. */
 static bool is_hidden(const aur_emitter *emitter) {
     return !aur_emitter_glows(emitter) && emitter->descriptor->radiance_from == NULL;

@@ -175,6 +175,8 @@ float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *re
  * from behind. */
 AUR_INTERNAL aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface,
                                              aur_vector view);
+/* Starts to load the texels that the material and the emission of `surface` read. */
+void aur_surface_prefetch(const aur_scene *scene, const aur_surface *surface);
 
 /* Environment lighting, for rays that hit nothing: the radiance from the unit `direction` (pointing out of
  * the scene), 0 without an environment; and the pdf with which aur_light_sample_direct samples it. */

@@ -87,6 +87,9 @@ typedef struct aur_bsdf_lobe {
     float ior_squared;      /* of specular lobes; as in aur_bsdf_sample */
 } aur_bsdf_lobe;
 
+/* Textures of a material that are fetched ahead; further ones are not. */
+enum { AUR_BSDF_TEXTURES = 8 };
+
 /* Materials with more lobes are rejected when they are created. */
 enum { AUR_BSDF_LOBE_CAPACITY = 8 };
 
@@ -134,6 +137,8 @@ struct aur_bsdf {
     bool scatters_from_behind; /* not black for view.z < 0 */
     bool transmits;            /* light may leave on the other side */
     bool textured;             /* varies over the surface, here or in a nested BSDF */
+    size_t texture_count;      /* of the textures that can be fetched ahead, here or in a nested BSDF */
+    const struct aur_texture *textures[AUR_BSDF_TEXTURES];
     bool bumpy;                /* requires tangents, here or in a nested BSDF */
     aur_attributes attributes; /* mesh attributes read, here or in a nested BSDF */
     bool plain_diffuse;        /* diffuse reflection only, constant over the surface */

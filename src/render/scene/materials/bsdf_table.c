@@ -64,6 +64,11 @@ static aur_result count_evaluations(const aur_parameters *parameters, aur_bsdf *
                              parameters->plugin, bsdf->evaluations - 1, (int)MOST_EVALUATIONS - 1);
 }
 
+static void add_texture(aur_bsdf *bsdf, const aur_texture *texture) {
+    if (texture->descriptor->prefetch != NULL && bsdf->texture_count < AUR_BSDF_TEXTURES)
+        bsdf->textures[bsdf->texture_count++] = texture;
+}
+
 /* Properties derived from the textures and materials among the parameters. */
 static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
     for (size_t i = 0; i < parameters->count; ++i) {
@@ -72,10 +77,14 @@ static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
             continue;
         const aur_bsdf *const nested = strcmp(item->object_kind, "bsdf") == 0 ? item->object : NULL;
         bsdf->textured = bsdf->textured || nested == NULL || nested->textured;
-        if (nested == NULL && strcmp(item->object_kind, "texture") == 0)
+        if (nested == NULL && strcmp(item->object_kind, "texture") == 0) {
             aur_attributes_add(&bsdf->attributes, &((const aur_texture *)item->object)->attributes);
+            add_texture(bsdf, item->object);
+        }
         if (nested != NULL)
             aur_attributes_add(&bsdf->attributes, &nested->attributes);
+        for (size_t k = 0; nested != NULL && k < nested->texture_count; ++k)
+            add_texture(bsdf, nested->textures[k]);
         bsdf->bumpy = bsdf->bumpy || (nested != NULL && nested->bumpy);
         bsdf->anisotropic = bsdf->anisotropic || (nested != NULL && nested->anisotropic);
     }

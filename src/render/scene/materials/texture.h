@@ -16,6 +16,8 @@ typedef struct aur_texture_descriptor {
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
     void (*release)(void *data); /* frees what texture->data points to; NULL: nothing */
     aur_vector (*evaluate)(const aur_texture *texture, aur_bsdf_point point);
+    /* Starts to load what `evaluate` reads at the point; NULL: nothing worth it. */
+    void (*prefetch)(const aur_texture *texture, aur_bsdf_point point);
     /* Derivatives of the luminance by u and v; NULL: zero. */
     void (*slope)(const aur_texture *texture, aur_bsdf_point point, float slope[2]);
 } aur_texture_descriptor;

@@ -202,15 +202,34 @@ typedef struct texel_position {
     float s, t;
 } texel_position;
 
+/* floorf without a call. */
+static int64_t floor_of(float x) {
+    const int64_t whole = (int64_t)x;
+    return whole - (x < (float)whole);
+}
+
 static bool find_texel(const bitmap *self, aur_bsdf_point point, texel_position *position) {
     const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
     const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
     const float x = at.u * (float)self->texels.width - offset, y = at.v * (float)self->texels.height - offset;
     if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
         return false;
-    const float left = floorf(x), top = floorf(y);
-    *position = (texel_position){(int64_t)left, (int64_t)top, x - left, y - top};
+    const int64_t left = floor_of(x), top = floor_of(y);
+    *position = (texel_position){left, top, x - (float)left, y - (float)top};
     return true;
+}
+
+static void prefetch(const aur_texture *texture, aur_bsdf_point point) {
+    const bitmap *const self = texture->data;
+    texel_position at;
+    if (!find_texel(self, point, &at))
+        return;
+    const size_t bytes = self->texels.channels * self->texels.value_bytes;
+    const size_t x = wrapped(at.i, self->texels.width, self->wrap);
+    for (int64_t row = 0; row < 2; ++row) {
+        const size_t y = wrapped(at.j + row, self->texels.height, self->wrap_v);
+        __builtin_prefetch(self->texels.values + aur_bitmap_index(&self->texels, x, y) * bytes);
+    }
 }
 
 /* Texels of one byte in memory. */
@@ -289,5 +308,6 @@ const aur_texture_descriptor aur_texture_bitmap = {
     .create = create,
     .release = release,
     .evaluate = evaluate,
+    .prefetch = prefetch,
     .slope = slope,
 };
