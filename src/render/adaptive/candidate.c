@@ -215,12 +215,12 @@ static double samples_in(const aur_candidate *candidate, const uint32_t *samples
     return sum;
 }
 
-/* Averages a pixel's current variance and spread with those of the rounds before. The spread must be that of
- * the averaged variance: the square of a sum, whose squared terms have unbiased estimates. */
+/* Averages a pixel's current variance and spread with those of the rounds before. Where covariances differ
+ * by a factor, the root of tr C^2 does so too. */
 static void pool_pixel(aur_pixel_spread *pool, double before, double variance, double spread) {
-    const double earlier = pool->variance * before;
-    pool->spread = 0.25 * (pool->spread * before * before + 2.0 * earlier * variance + spread);
-    pool->variance = 0.5 * (earlier + variance);
+    const double root = 0.5 * (sqrt(pool->spread) * before + sqrt(spread));
+    pool->spread = root * root;
+    pool->variance = 0.5 * (pool->variance * before + variance);
 }
 
 /* Pools the estimates of all rounds of how concentrated the error is on few pixels. */

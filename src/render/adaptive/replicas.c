@@ -156,56 +156,17 @@ static void add_variances(const aur_replicas *replicas, size_t pixel, const doub
 }
 
 static void measure_pixel(const aur_replicas *replicas, size_t pixel, double d[3][AUR_REPLICAS_MAX],
-                          const aur_gram *gram, const aur_pixel_measure *pixels) {
+                          double *variances) {
     double shares[AUR_REPLICAS_MAX + 1];
     shares[replicas->count] = 0.0;
     for (size_t r = 0; r < replicas->count; ++r) {
         const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
         shares[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
         shares[replicas->count] += shares[r];
-        pixels->variances[r * replicas->pixel_count + pixel] = 0.0;
+        variances[r * replicas->pixel_count + pixel] = 0.0;
     }
     for (size_t channel = 0; channel < 3; ++channel)
-        add_variances(replicas, pixel, shares, d[channel], pixels->variances);
-    pixels->spreads[pixel] = aur_gram_spread(gram);
-}
-
-/* The covariances of R, G and B in a pixel times count - 1: of RR, GG, BB, RG, RB, GB. */
-typedef struct colour_covariance {
-    double entries[6];
-} colour_covariance;
-
-static colour_covariance covariance_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
-    static const size_t of[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-    colour_covariance covariance = {{0.0}};
-    for (size_t e = 0; e < 6; ++e)
-        for (size_t r = 0; r < count; ++r)
-            covariance.entries[e] += d[of[e][0]][r] * d[of[e][1]][r];
-    return covariance;
-}
-
-/* The trace of the product of two covariances. */
-static double product_of(const colour_covariance *a, const colour_covariance *b) {
-    double sum = 0.0;
-    for (size_t e = 0; e < 6; ++e)
-        sum += (e < 3 ? 1.0 : 2.0) * a->entries[e] * b->entries[e];
-    return sum;
-}
-
-/* tr C^2 of a block's pixels, estimated from their neighbours. C_i and C_j are estimated independently, so
- * the expectation of the product is tr C_i C_j, which on average is at most that of the squares. */
-static double neighbours_in(size_t count, pixel_range block, const colour_covariance *covariances) {
-    const size_t width = block.x1 - block.x0, height = block.y1 - block.y0;
-    const double degrees = (double)(count - 1);
-    double sum = 0.0;
-    for (size_t i = 0; i < width * height; ++i) {
-        if (i % width + 1 < width)
-            sum += product_of(&covariances[i], &covariances[i + 1]);
-        if (i / width + 1 < height)
-            sum += product_of(&covariances[i], &covariances[i + width]);
-    }
-    const size_t pairs = (width - 1) * height + width * (height - 1);
-    return pairs > 0 ? sum * (double)(width * height) / ((double)pairs * degrees * degrees) : 0.0;
+        add_variances(replicas, pixel, shares, d[channel], variances);
 }
 
 static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
@@ -217,44 +178,41 @@ static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
     return gram;
 }
 
-/* Adds a block's values to the mean and its pixels' variances, and returns its Gram matrix. */
-static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighing, pixel_range block,
-                              double *mean, const aur_pixel_measure *pixels) {
+/* Adds a block's pixels to the measure, and to its variances and spreads of pixels. */
+static void measure_block(const aur_replicas *replicas, aur_weighing weighing, pixel_range block,
+                          aur_replica_measure *measure, const aur_pixel_measure *pixels) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count};
-    colour_covariance covariances[BLOCK * BLOCK];
-    size_t seen = 0;
     for (size_t y = block.y0; y < block.y1; ++y)
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             double d[3][AUR_REPLICAS_MAX], means[3];
             find_deviations(replicas, pixel, 0, means, d);
             for (size_t channel = 0; channel < 3; ++channel)
-                *mean += means[channel];
+                measure->mean += means[channel];
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
             const aur_gram of_pixel = gram_of(replicas->count, d);
-            if (pixels != NULL)
-                measure_pixel(replicas, pixel, d, &of_pixel, pixels);
+            const double spread = aur_deviations_add_pixel(&measure->deviations, &of_pixel);
+            if (pixels != NULL) {
+                measure_pixel(replicas, pixel, d, pixels->variances);
+                pixels->spreads[pixel] = spread;
+            }
             for (size_t r = 0; r < replicas->count; ++r)
                 for (size_t s = 0; s < replicas->count; ++s)
                     gram.products[r][s] += of_pixel.products[r][s];
-            covariances[seen++] = covariance_of(replicas->count, d);
         }
-    gram.neighbours = neighbours_in(replicas->count, block, covariances);
-    return gram;
+    aur_deviations_add(&measure->deviations, &gram);
 }
 
 void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, aur_replica_measure *measure,
                           const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
-    *measure = (aur_replica_measure){0};
+    *measure = (aur_replica_measure){.deviations.overlap =
+                                         film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0};
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
-        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            const aur_gram gram = measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row),
-                                                &measure->mean, pixels);
-            aur_deviations_add(&measure->deviations, &gram);
-        }
+        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column)
+            measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row), measure, pixels);
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 

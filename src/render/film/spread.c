@@ -47,6 +47,19 @@ bool aur_spread_create(const aur_filter *filter, size_t cell, size_t channel_cou
     return true;
 }
 
+double aur_spread_overlap(const aur_spread *spread) {
+    const size_t width = 2 * spread->reach + 1;
+    double covariances[AUR_SPREAD_WIDTH_MAX] = {0.0}, sum = 0.0;
+    for (size_t bin = 0; bin < AUR_SPREAD_BINS; ++bin)
+        for (size_t i = 0; i < width; ++i)
+            for (size_t j = i; j < width; ++j)
+                covariances[j - i] +=
+                    (double)spread->table[bin * width + i] * (double)spread->table[bin * width + j];
+    for (size_t k = 0; k < width; ++k)
+        sum += (k > 0 ? 2.0 : 1.0) * covariances[k] * covariances[k] / (covariances[0] * covariances[0]);
+    return sum * sum; /* the filter is a product of one along each axis */
+}
+
 void aur_spread_destroy(aur_spread *spread) {
     if (spread == NULL)
         return;

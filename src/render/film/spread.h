@@ -42,6 +42,8 @@ enum { AUR_SPREAD_MOMENTS = 7 };
 
 /* The pixels on each side that a sample reaches. */
 size_t aur_spread_reach(const aur_filter *filter);
+/* Where the noise of samples is white: the sum over all pixels of the squared correlation with one pixel. */
+double aur_spread_overlap(const aur_spread *spread);
 /* Computes the sizes in `spread` for a filter and cells; allocates nothing. */
 void aur_spread_measure(const aur_filter *filter, size_t cell, size_t channel_count, aur_spread *spread);
 /* Allocates for `tile_count` tiles. False: out of memory. Must be released in every case. */

@@ -12,57 +12,70 @@ static double spread_of_fours(double count, double trace, double squares, double
     return two / pairs - 2.0 * three / triples + four / (triples * (count - 3.0));
 }
 
-static double spread_of_three(double trace, double squares) {
-    return (squares - trace * trace / 2.0) / 4.0;
+/* Sums over a Gram matrix. */
+typedef struct gram_sums {
+    double trace, squares, diagonal;
+} gram_sums;
+
+static gram_sums sums_of(const aur_gram *block) {
+    gram_sums sums = {.trace = 0.0};
+    for (size_t r = 0; r < block->count; ++r) {
+        sums.trace += block->products[r][r];
+        sums.diagonal += block->products[r][r] * block->products[r][r];
+        for (size_t s = 0; s < block->count; ++s)
+            sums.squares += block->products[r][s] * block->products[r][s];
+    }
+    return sums;
 }
 
-double aur_gram_spread(const aur_gram *block) {
-    double trace = 0.0, squares = 0.0, diagonal = 0.0;
-    for (size_t r = 0; r < block->count; ++r) {
-        trace += block->products[r][r];
-        diagonal += block->products[r][r] * block->products[r][r];
-        for (size_t s = 0; s < block->count; ++s)
-            squares += block->products[r][s] * block->products[r][s];
-    }
-    const double unbiased = block->count > 3 ? spread_of_fours((double)block->count, trace, squares, diagonal)
-                                             : spread_of_three(trace, squares);
-    return fmax(unbiased, 0.0);
+static double spread_of_normal(double n, const gram_sums *sums) {
+    return fmax(sums->squares - sums->trace * sums->trace / n, 0.0) / ((n - 1.0) * (n + 2.0));
 }
 
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
-    const double spread = aur_gram_spread(block);
-    for (size_t r = 0; r < block->count; ++r)
-        sum->trace += block->products[r][r];
-    sum->spread += spread;
-    sum->square_spreads += spread * spread;
-    sum->neighbours += block->neighbours;
+    const gram_sums sums = sums_of(block);
+    const double count = (double)block->count;
+    const double spread = count > 3.0 ? spread_of_fours(count, sums.trace, sums.squares, sums.diagonal)
+                                      : spread_of_normal(count - 1.0, &sums);
+    sum->trace += sums.trace;
+    sum->blocks += fmax(spread, 0.0);
+    sum->square_blocks += spread > 0.0 ? spread * spread : 0.0;
+}
+
+double aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel) {
+    const gram_sums sums = sums_of(pixel);
+    const double spread = spread_of_normal((double)(pixel->count - 1), &sums);
+    sum->pixels += spread;
+    sum->square_pixels += spread * spread;
+    return spread;
 }
 
 void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
                          const aur_pixel_spread *pixels) {
-    double variance = 0.0, spread = 0.0, squares = 0.0;
+    double variance = 0.0;
+    sum->pixels = sum->square_pixels = 0.0;
     for (size_t i = 0; i < pixel_count; ++i) {
         variance += pixels[i].variance;
-        spread += pixels[i].spread;
-        squares += pixels[i].spread * pixels[i].spread;
+        sum->pixels += pixels[i].spread;
+        sum->square_pixels += pixels[i].spread * pixels[i].spread;
     }
-    const double smaller = fmin(sum->trace / ((double)(count - 1) * variance), 1.0);
-    const double part = smaller * smaller;
-    if (part * spread > sum->spread && spread * spread < 4.0 * squares) {
-        sum->spread = part * spread;
-        sum->square_spreads = part * part * squares;
-    }
+    const double part = variance > 0.0 ? sum->trace / ((double)(count - 1) * variance) : 0.0;
+    sum->pixels *= part * part;
+    sum->square_pixels *= pow(part, 4.0);
 }
 
-/* Degrees of freedom of the sum of the blocks' spreads. For normal values, one block has as many as there are
- * independent differences of four replicas, count (count - 3) / 2 (two for three replicas, Wishart). The
- * relative variance of a spread is two divided by the degrees, and so is the excess of its expected square.
- */
+/* Degrees of freedom of a sum of spreads. The relative variance of a spread is two divided by its degrees.
+ * For normal values, a block has as many as there are independent differences of four replicas, count (count
+ * - 3) / 2 (two for three replicas, Wishart), and its square is one plus that variance times as large as
+ * expected. A pixel's spread is the square of a variance with n degrees: the relative variance is 8 (n + 3) /
+ * (n (n + 2)). Pixels that share samples deviate together. */
 static size_t degrees_of_spread(const aur_deviations *sum, size_t count) {
-    const double one = count > 3 ? 0.5 * (double)(count * (count - 3)) : 2.0;
-    if (!(sum->square_spreads > 0.0))
-        return (size_t)one;
-    return (size_t)fmin(fmax((one + 2.0) * sum->spread * sum->spread / sum->square_spreads, one), 1e6);
+    const double n = (double)(count - 1), one = count > 3 ? 0.5 * (double)(count * (count - 3)) : 2.0;
+    const double blocks = (one + 2.0) * sum->blocks * sum->blocks / sum->square_blocks;
+    const double pixels = (n + 4.0) * (n + 6.0) / (4.0 * (n + 3.0)) * sum->pixels * sum->pixels /
+                          (sum->overlap * sum->square_pixels);
+    const double degrees = sum->blocks > sum->overlap * sum->pixels ? blocks : pixels;
+    return degrees > one ? (size_t)fmin(degrees, 1e6) : (size_t)one;
 }
 
 aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count, size_t values,
@@ -71,7 +84,7 @@ aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count,
     aur_error_interval interval = {.degrees = 1.0};
     if (!(sum->trace > 0.0))
         return interval;
-    const double spread = fmax(sum->spread, sum->neighbours);
+    const double spread = fmax(sum->blocks, sum->overlap * sum->pixels);
     const double square = (sum->trace * sum->trace - 2.0 * n * spread) / (n * n);
     interval.degrees = fmin(fmax(square / spread, 1.0), (double)values);
     const double square_error = sum->trace / (n * (double)count * (double)values);

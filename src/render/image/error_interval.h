@@ -11,39 +11,42 @@ enum { AUR_REPLICAS_MAX = 16 };
 typedef struct aur_gram {
     size_t count;
     double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
-    double neighbours; /* an estimate of tr C^2 from neighbouring values (aur_deviations) */
 } aur_gram;
 
-/* Sums over the Gram matrices of all blocks of an image. C is the covariance of one replica's values; blocks
- * are assumed independent of each other. Initialise with zeros. */
+/* Sums over the Gram matrices of an image. C is the covariance of one replica's values. Initialise with zeros
+ * and `overlap`. */
 typedef struct aur_deviations {
-    double trace;          /* the sum of tr W; expectation (count - 1) tr C */
-    double spread;         /* the sum of estimates of tr C^2 */
-    double square_spreads; /* the sum of their squares */
-    double neighbours;     /* the sum of the blocks' */
+    double trace;         /* the sum of tr W; expectation (count - 1) tr C */
+    double blocks;        /* the sum of the blocks' estimates of tr C^2 */
+    double square_blocks; /* the sum of their squares */
+    double pixels;        /* the sum of the pixels' estimates of tr C^2 */
+    double square_pixels; /* the sum of their squares */
+    double overlap;       /* tr C^2 over the pixels' part, where they share samples whose noise is white */
 } aur_deviations;
 
 /* Let Y be the deviations from the expectation. The error of the mean and its estimate from the replicas'
  * differences differ by the sum of Y_r.Y_s over r != s, divided by count (count - 1): an identity. Its
  * variance is 2 tr C^2 over count (count - 1) for any distribution, so the interval needs tr C^2. Four
  * distinct replicas estimate it without bias: ((X_1 - X_2).(X_3 - X_4))^2 / 4 (Chen, Zhang and Zhong 2010).
- * Each block takes the mean over all sets of four. The Gram matrix gives an estimate with more degrees for
- * normal values (Wishart), but one several times too high for rare large values. With three replicas only
- * that is available: (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2)) with n = count - 1. */
+ * Each block takes the mean over all sets of four. It includes all covariances within blocks. With three
+ * replicas, values are taken to be normal. */
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
 
-/* tr C^2 of one block, from its Gram matrix. */
-double aur_gram_spread(const aur_gram *block);
+/* Adds and returns tr C^2 of a pixel with normal values (Wishart): (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2))
+ * with n = count - 1. Too high for rare large values. A pixel whose light few samples meet must not be taken
+ * for one of many that share the error: the mean over sets of four is low wherever only one replica has met
+ * it, and lower still where an error measure is not linear, which makes the replicas' differences depend on
+ * each other. */
+double aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel);
 
 /* A replica's value of a pixel over all rounds: its variance, the channels together, and tr C^2. */
 typedef struct aur_pixel_spread {
     double variance, spread;
 } aur_pixel_spread;
 
-/* Replaces the spread by the estimate from all rounds of `pixels`, if that is larger at the same error. If
- * one pixel has most of the error and its replicas agree by chance in the last round, the error looks small
- * and evenly distributed; earlier rounds reveal it. If four pixels or more share the spread, the last round
- * estimates it well enough. Earlier rounds, whose samples it includes, overestimate rare values. */
+/* Replaces the spreads of pixels by the estimates from all rounds, at the error of the last one: if a pixel's
+ * replicas agree by chance in the last round, the error looks small and evenly distributed; earlier rounds
+ * reveal it. */
 void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
                          const aur_pixel_spread *pixels);
 
@@ -55,8 +58,7 @@ typedef struct aur_error_interval {
 /* The error of the mean of `count` >= 3 images of `values` values, and its interval of probability
  * `confidence` in (0,1). It is the error of this mean, not the expected error over other seeds: the two vary
  * independently, which widens the interval by a factor of 1 + 1/(count - 1) in variance. tr C^2 is the larger
- * of `spread` and `alike`. The first has few degrees of freedom, and is low by chance where the error
- * estimate is too low; the second has many, and is too low where neighbours differ. The interval is computed
+ * of the blocks' and of the pixels' times their overlap. The interval is computed
  * on the scale of cube roots, where sums of squares with (tr C)^2 / tr C^2 degrees (Satterthwaite 1946) are
  * nearly normal (Wilson and Hilferty 1931), with Student's quantile for the uncertainty of tr C^2. */
 aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count, size_t values,

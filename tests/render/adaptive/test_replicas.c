@@ -95,69 +95,8 @@ static void test_tiles_have_their_means(void **state) {
     aur_scene_destroy(scene);
 }
 
-static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
-    const aur_film *const film = aur_render_film(replicas->renders[r]);
-    return aur_film_mean(film, pixel, channel);
-}
-
-/* The covariance of two channels of a pixel, by differences of replicas. */
-static double covariance_of(const aur_replicas *replicas, size_t pixel, size_t a, size_t b) {
-    double sum = 0.0;
-    for (size_t r = 0; r < REPLICAS; ++r)
-        for (size_t s = 0; s < r; ++s)
-            sum += (value_of(replicas, r, pixel, a) - value_of(replicas, s, pixel, a)) *
-                   (value_of(replicas, r, pixel, b) - value_of(replicas, s, pixel, b));
-    return sum / (REPLICAS * (REPLICAS - 1.0));
-}
-
-static double product_of(const aur_replicas *replicas, size_t i, size_t j) {
-    double sum = 0.0;
-    for (size_t a = 0; a < 3; ++a)
-        for (size_t b = 0; b < 3; ++b)
-            sum += covariance_of(replicas, i, a, b) * covariance_of(replicas, j, a, b);
-    return sum;
-}
-
-/* Covariances of neighbouring pixels in the same block of 8 x 8, contributions to tr C^2, pair by pair. */
-static double correlation_of(const aur_replicas *replicas) {
-    double all = 0.0;
-    for (size_t y0 = 0; y0 < HEIGHT; y0 += 8)
-        for (size_t x0 = 0; x0 < WIDTH; x0 += 8) {
-            double sum = 0.0;
-            size_t pixels = 0, pairs = 0;
-            for (size_t i = 0; i < PIXELS; ++i)
-                for (size_t j = 0; j < PIXELS; ++j) {
-                    const size_t xi = i % WIDTH, yi = i / WIDTH, xj = j % WIDTH, yj = j / WIDTH;
-                    if (xi / 8 != x0 / 8 || yi / 8 != y0 / 8 || xj / 8 != x0 / 8 || yj / 8 != y0 / 8)
-                        continue;
-                    pixels += i == j;
-                    if ((xj == xi + 1 && yj == yi) || (xj == xi && yj == yi + 1)) {
-                        sum += product_of(replicas, i, j);
-                        ++pairs;
-                    }
-                }
-            all += sum * (double)pixels / (double)pairs;
-        }
-    return all;
-}
-
-static void test_neighbours(void **state) {
-    (void)state;
-    fixture f;
-    begin(&f, 2);
-    static double variances[REPLICAS * PIXELS];
-    aur_replica_measure measure;
-    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
-                         &(aur_pixel_measure){variances, f.spreads});
-    const double expected = correlation_of(&f.replicas);
-    assert_true(expected > 0.0);
-    assert_near(measure.deviations.neighbours, expected, 1e-9 * expected);
-    end(&f);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values_of_the_replica_do_not_count),
-                                       cmocka_unit_test(test_tiles_have_their_means),
-                                       cmocka_unit_test(test_neighbours)};
+                                       cmocka_unit_test(test_tiles_have_their_means)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

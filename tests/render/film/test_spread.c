@@ -362,12 +362,25 @@ static void small_images(void **state) {
         }
 }
 
+/* White noise through a tent of radius 1: the integral of its square is 2/3, of its product with itself a
+ * pixel away 1/6. So along each axis the squared correlations are 1 and twice 1/16. The table's bins change
+ * that by about one over their number. */
+static void overlap_is_the_sum_of_squared_correlations(void **state) {
+    (void)state;
+    const aur_filter tent = {.kind = AUR_FILTER_TENT, .scale = 1.0f};
+    aur_spread *spread;
+    assert_true(aur_spread_create(&tent, AUR_TILE_SIZE, 3, 1, &spread));
+    assert_relative(aur_spread_overlap(spread), 81.0 / 64.0, 1.0 / AUR_SPREAD_BINS);
+    aur_spread_destroy(spread);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
                                        cmocka_unit_test(errors_are_those_of_the_steps),
                                        cmocka_unit_test(nothing_changes_a_bit),
                                        cmocka_unit_test(cells_have_equal_weights_for_any_number_of_samples),
                                        cmocka_unit_test(gathers_count_where_they_lie),
-                                       cmocka_unit_test(small_images)};
+                                       cmocka_unit_test(small_images),
+                                       cmocka_unit_test(overlap_is_the_sum_of_squared_correlations)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
