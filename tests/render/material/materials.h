@@ -88,6 +88,10 @@ static const material_row material_rows[] = {
     {"roughcoating:alpha=0.3", "diffuse:reflectance=0.8", 0},
     {"roughcoating:alpha=0.2,distribution=ggx,sigma_a=0.3", "roughconductor:alpha=0.4", 0},
     {"roughcoating:alpha=0.2", "conductor", 0},
+    {"roughconductor:alpha=0.3,distribution=phong,material=Cu", NULL, 0},
+    {"roughconductor:alpha_u=0.15,alpha_v=0.5,distribution=as", NULL, 0},
+    {"roughdielectric:alpha=0.3,int_ior=1.5,ext_ior=1,distribution=phong", NULL, NARROW | GLASS},
+    {"roughplastic:alpha=0.3,diffuse_reflectance=0.6,distribution=phong", NULL, 0},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };

@@ -476,6 +476,24 @@ static void facets_stand_where_the_formula_says(void **state) {
     }
 }
 
+/* Facets cover the surface once, in every direction that a distribution is stretched in (Walter 2007, (4)):
+ * midpoints over azimuth and squared cosine. */
+static void facets_cover_the_surface(void **state) {
+    (void)state;
+    enum { COUNT = 512 };
+    for (int d = AUR_MICROFACET_BECKMANN; d <= AUR_MICROFACET_AS; ++d) {
+        aur_microfacet facets = {.alpha_u = 0.2f, .alpha_v = 0.5f};
+        facets.distribution = (unsigned)d;
+        double sum = 0.0;
+        for (size_t i = 0; i < COUNT; ++i)
+            for (size_t k = 0; k < COUNT; ++k) {
+                const float u = ((float)i + 0.5f) / COUNT, v = ((float)k + 0.5f) / COUNT;
+                sum += (double)aur_microfacet_density(&facets, aur_sample_cosine(u, v));
+            }
+        assert_near(sum * AUR_PI / (COUNT * COUNT), 1.0, 1e-4);
+    }
+}
+
 /* A row of facets equals the same facets evaluated one by one. */
 static void rows_of_facets_are_single_facets(void **state) {
     (void)state;
@@ -589,6 +607,7 @@ int main(void) {
         cmocka_unit_test(values_are_those_of_mitsuba),
         cmocka_unit_test(facets_are_masked_by_the_formula),
         cmocka_unit_test(facets_stand_where_the_formula_says),
+        cmocka_unit_test(facets_cover_the_surface),
         cmocka_unit_test(rows_of_facets_are_single_facets),
         cmocka_unit_test(rough_diffuse_is_oren_nayar),
     };

@@ -83,6 +83,14 @@ static void checks(void **state) {
     expect("checkerboard:color0=0.8,color1=0.1", -0.75f, 5.75f, 0.1, 0.1, 0.1);
     expect("checkerboard:color0=0.8,color1=0.1,uscale=4", 0.1875f, 0.25f, 0.1, 0.1, 0.1);
     expect("checkerboard", 0.1f, 0.1f, 0.4, 0.4, 0.4);
+    expect("gridtexture", 0.5f, 0.5f, 0.2, 0.2, 0.2);
+    expect("gridtexture", 0.5f, -2.005f, 0.4, 0.4, 0.4);
+    expect("gridtexture:color0=0.7,line_width=0.2", 1.15f, 0.5f, 0.4, 0.4, 0.4);
+    expect("gridtexture:color0=0.7,line_width=0.2", 1.25f, 0.75f, 0.7, 0.7, 0.7);
+    aur_texture *const grid = make("gridtexture:color0=0.7,color1=0,line_width=0.1");
+    assert_near(grid->mean.x, 0.7 * 0.8 * 0.8, 1e-6);
+    aur_texture_destroy(grid);
+    expect("scale:value=0.8,scale=0.5 1 2", 0.3f, 0.1f, 0.4, 0.8, 1.6);
 }
 
 static void says_what_is_wrong(void **state) {

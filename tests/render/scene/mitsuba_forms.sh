@@ -29,6 +29,15 @@ ball="<shape type='sphere'><point name='center' x='0' y='0' z='5'/><float name='
 same "a spot in a shape" "$camera<shape type='rectangle'/>$ball$spot</shape>" "$camera<shape type='rectangle'/>$ball</shape>$spot"
 refused "emitter 'constant' cannot stand inside a shape" "$camera$ball<emitter type='constant'/></shape>"
 
+# The textures `scale` and `gridtexture` of 0.6; an object below the surface is refused in a line that names it.
+floor() { echo "$camera$light<shape type='rectangle'><bsdf type='diffuse'>$1</bsdf></shape>"; }
+checks() { echo "<texture type='checkerboard' name='$1'><float name='color0' value='$2'/><float name='color1' value='$3'/></texture>"; }
+same "a scaled texture" "$(floor "<texture type='scale' name='reflectance'><float name='scale' value='.5'/>$(checks inner .8 .5)</texture>")" \
+  "$(floor "$(checks reflectance .4 .25)")"
+same "a grid of broad lines" "$(floor "<texture type='gridtexture' name='reflectance'><float name='color1' value='.7'/><float name='line_width' value='.5'/></texture>")" \
+  "$(floor "<float name='reflectance' value='.7'/>")"
+refused "subsurface 'dipole' is not supported: 'homogeneous' inside" "$camera$light<shape type='rectangle'><subsurface type='dipole'/></shape>"
+
 # A medium by scattering and absorption.
 medium() { echo "<integrator type='volpath'/>$camera<emitter type='constant'/><shape type='sphere'><bsdf type='null'/><medium name='interior' type='homogeneous'>$1</medium></shape>"; }
 same "sigma_s and sigma_a" "$(medium "<rgb name='sigma_s' value='1,2,3'/><rgb name='sigma_a' value='1,0,1'/>")" \

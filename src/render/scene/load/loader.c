@@ -57,9 +57,11 @@ static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *given = aur_xml_attribute_value(child, "name");
     const bool named = has_name(tag, parameters);
-    /* The single texture of a bumpmap may have any name. */
+    /* The single texture of a bumpmap or a `scale` may have any name. */
     if (named && strcmp(parameters->plugin, "bumpmap") == 0)
         given = "texture";
+    if (named && strcmp(parameters->plugin, "scale") == 0)
+        given = "value";
     if (named && given == NULL)
         return aur_xml_fail(child, self->error, "a %s inside an object needs a 'name': what it is for", tag);
     size_t count = 1;

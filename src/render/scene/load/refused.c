@@ -11,6 +11,7 @@
     }
 
 #define OF_SAME_LIGHT "--integrator path, volpath or finalgather renders the same light"
+#define INSIDE "'homogeneous' inside a shape is the medium that it approximates"
 #define OF_DERIVATIVES "it is for derivatives: --integrator path renders the same image"
 
 static const aur_key integrator_names[] = {
@@ -38,7 +39,7 @@ static const aur_key bsdf_names[] = {
     NAME("hair", "the curves that carry it can have any other bsdf"),
     NAME("measured", "files of measured materials are not read"),
     NAME("measured_polarized", "light is unpolarised here, and files of measured materials are not read"),
-    NAME("hk", "'homogeneous' inside a shape is the medium that it approximates"),
+    NAME("hk", INSIDE),
     NAME("irawan", "files of woven cloth are not read"),
 };
 static const aur_key shape_names[] = {
@@ -55,8 +56,6 @@ static const aur_key emitter_names[] = {
     NAME("collimated", "a 'spot' or a 'directional' light through a hole is a beam"),
 };
 static const aur_key texture_names[] = {
-    NAME("scale", "multiply the values of the texture inside, or give 'bitmap' a 'factor'"),
-    NAME("gridtexture", "'bitmap' can show an image of the grid"),
     NAME("wireframe", "edges of meshes are not drawn"),
     NAME("curvature", "curvatures of surfaces are not computed"),
 };
@@ -68,6 +67,12 @@ static const aur_key sensor_names[] = {
     NAME("distantflux", "'irradiancemeter' measures flux per area"),
     NAME("flat_sensor", "'irradiancemeter' measures flux per area"),
     NAME("spherical", "a 'batch' of six 'perspective' cameras sees all directions"),
+};
+static const aur_key subsurface_names[] = {
+    NAME("dipole", INSIDE),
+    NAME("multipole", INSIDE),
+    NAME("adipole", INSIDE),
+    NAME("singlescatter", INSIDE),
 };
 static const aur_key film_names[] = {
     NAME("specfilm", "colours are red, green and blue"),
@@ -84,9 +89,9 @@ static const aur_key volume_names[] = {
     NAME("hgridvolume", "'gridvolume' reads one grid"),
 };
 
-static const aur_row *const rows[] = {KIND(integrator), KIND(bsdf),    KIND(shape),
-                                      KIND(emitter),    KIND(sensor),  KIND(film),
-                                      KIND(phase),      KIND(texture), KIND(volume)};
+static const aur_row *const rows[] = {KIND(integrator), KIND(bsdf),      KIND(shape), KIND(emitter),
+                                      KIND(sensor),     KIND(film),      KIND(phase), KIND(texture),
+                                      KIND(volume),     KIND(subsurface)};
 
 const aur_table aur_refused_table = {
     .kind = "refused", .summary = "Mitsuba's plugins that are not supported", AUR_TABLE_ROWS(rows)};

@@ -90,7 +90,7 @@ static const aur_table *table_of(const aur_xml_node *node, const char *plugin, s
 static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *error) {
     const char *const plugin = aur_xml_attribute_value(node, "type");
     const aur_table *const table = plugin != NULL ? table_of(node, plugin, depth) : NULL;
-    if (table == NULL)
+    if (table == NULL && (plugin == NULL || strcmp(node->tag, "subsurface") != 0))
         return AUR_OK;
     aur_parameters parameters;
     const aur_row *row;
@@ -98,7 +98,7 @@ static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *
     if (result != AUR_OK)
         return result;
     result = aur_parameters_refuse(&parameters, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && table != NULL)
         result = aur_table_find(table, &parameters, &row, error);
     aur_parameters_release(&parameters);
     return result;

@@ -89,7 +89,8 @@ static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_poin
         return false;
     *drawn = (aur_bsdf_sample){.light = light,
                                .weight = aur_vector_scale(reflectance(self, point, cosine),
-                                                          aur_microfacet_masking(&facets, light, normal)),
+                                                          aur_microfacet_masking(&facets, light, normal) *
+                                                              aur_microfacet_weight(&facets, view, normal)),
                                .pdf = aur_microfacet_pdf(&facets, view, normal) / (4.0f * cosine)};
     return drawn->pdf > 0.0f;
 }
@@ -105,7 +106,7 @@ static void weigh_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
 
 const aur_bsdf_descriptor aur_bsdf_roughconductor = {
     .row = {.name = "roughconductor",
-            .summary = "a rough metal: beckmann or ggx facets",
+            .summary = "a rough metal: Beckmann, GGX or Phong facets",
             .source = "Walter et al. 2007",
             AUR_ROW_KEYS(rough_keys)},
     .size = sizeof(conductor),

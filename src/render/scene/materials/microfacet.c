@@ -22,9 +22,27 @@ bool aur_roughness_complete(aur_roughness *roughness) {
     return u->texture != v->texture || roughness->constant.alpha_u != roughness->constant.alpha_v;
 }
 
+static bool is_phong(const aur_microfacet *microfacet) {
+    return microfacet->distribution >= AUR_MICROFACET_PHONG;
+}
+
+static float phong_exponent(float alpha) {
+    return aur_larger(2.0f / (alpha * alpha) - 2.0f, 0.0f);
+}
+
+/* Ashikhmin and Shirley 2000, normalised for facets. */
+static float phong_density(const aur_microfacet *microfacet, aur_vector normal) {
+    const float a = phong_exponent(microfacet->alpha_u), b = phong_exponent(microfacet->alpha_v);
+    const float x2 = normal.x * normal.x, y2 = normal.y * normal.y;
+    const float power = x2 + y2 > 0.0f ? (a * x2 + b * y2) / (x2 + y2) : 0.0f;
+    return sqrtf((a + 2.0f) * (b + 2.0f)) * powf(normal.z, power) / (2.0f * AUR_PI_F);
+}
+
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal) {
     if (normal.z <= 0.0f)
         return 0.0f;
+    if (is_phong(microfacet))
+        return phong_density(microfacet, normal);
     const float x = normal.x / microfacet->alpha_u, y = normal.y / microfacet->alpha_v;
     const float area = AUR_PI_F * microfacet->alpha_u * microfacet->alpha_v;
     const float z2 = normal.z * normal.z;
@@ -34,13 +52,13 @@ float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal
     return 1.0f / (area * sum * sum);
 }
 
-/* Smith's Lambda, exact for both distributions, except 0 where 1 + Lambda rounds to 1. */
+/* Smith's Lambda, exact for GGX and Beckmann facets, except 0 where 1 + Lambda rounds to 1. */
 static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
     const float x = direction.x * microfacet->alpha_u, y = direction.y * microfacet->alpha_v;
     const float tangent2 = (x * x + y * y) / (direction.z * direction.z); /* (alpha tan)^2 */
     if (!(tangent2 > 0.0f))
         return 0.0f;
-    if (microfacet->distribution != AUR_MICROFACET_BECKMANN)
+    if (microfacet->distribution == AUR_MICROFACET_GGX)
         return 0.5f * (sqrtf(1.0f + tangent2) - 1.0f);
     /* Lambda < exp(-a^2) / (4 sqrt(pi) a^3) for a = 1 / tangent: below 1.6e-8 from a = 3.5 on, and 2^-25 is
      * 3.0e-8. Most directions on smooth surfaces are in this range. */
@@ -78,9 +96,30 @@ float aur_microfacet_fitted_masking(const aur_microfacet *microfacet, aur_vector
     return (3.535f * a + 2.181f * a * a) / (1.0f + 2.276f * a + 2.577f * a * a);
 }
 
-float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
+static float visible_density(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
     return aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal) *
            aur_larger(aur_vector_dot(view, normal), 0.0f) / view.z;
+}
+
+/* The facets whose visible normals are sampled. GGX has the longest tail, so weights of Phong facets are
+ * bounded. */
+static aur_microfacet sampled_facets(const aur_microfacet *microfacet) {
+    aur_microfacet facets = *microfacet;
+    if (is_phong(microfacet))
+        facets.distribution = AUR_MICROFACET_GGX;
+    return facets;
+}
+
+float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
+    const aur_microfacet facets = sampled_facets(microfacet);
+    return visible_density(&facets, view, normal);
+}
+
+float aur_microfacet_weight(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
+    if (!is_phong(microfacet))
+        return 1.0f;
+    const float pdf = aur_microfacet_pdf(microfacet, view, normal);
+    return pdf > 0.0f ? visible_density(microfacet, view, normal) / pdf : 0.0f;
 }
 
 /* Visible normals of the hemisphere: half vectors of a spherical cap (Dupuy and Benyoub 2023). */
@@ -169,7 +208,8 @@ float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, a
     *cosine = aur_vector_dot(view, normal);
     const float density = aur_microfacet_density(microfacet, normal);
     const float seen = density * aur_microfacet_masking(microfacet, view, normal);
-    *pdf = seen * aur_larger(*cosine, 0.0f) / view.z / (4.0f * *cosine);
+    *pdf = is_phong(microfacet) ? aur_microfacet_pdf(microfacet, view, normal) / (4.0f * *cosine)
+                                : seen * aur_larger(*cosine, 0.0f) / view.z / (4.0f * *cosine);
     if (microfacet->fitted)
         return density * aur_microfacet_fitted_masking(microfacet, view, normal) *
                aur_microfacet_fitted_masking(microfacet, light, normal) / (4.0f * view.z);

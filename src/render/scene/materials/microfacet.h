@@ -1,11 +1,18 @@
-/* Microfacet surfaces: GGX (Walter 2007) and Beckmann distributions, Smith masking and shadowing, and
- * sampling of visible normals. Local frame, z up. */
+/* Microfacet surfaces: GGX, Beckmann and Phong distributions (Walter 2007; Ashikhmin and Shirley 2000), Smith
+ * masking and shadowing, and sampling of visible normals. Local frame, z up. */
 #pragma once
 
 #include "render/scene/materials/texture.h"
 
 typedef struct aur_microfacet {
-    enum { AUR_MICROFACET_BECKMANN, AUR_MICROFACET_GGX } distribution;
+    /* Phong facets have the exponent 2 / alpha^2 - 2 and Beckmann's masking (Walter 2007, section 5.2). Their
+     * normals are sampled as visible GGX normals. The last is Phong's other name, in Mitsuba 0.5. */
+    enum {
+        AUR_MICROFACET_BECKMANN,
+        AUR_MICROFACET_GGX,
+        AUR_MICROFACET_PHONG,
+        AUR_MICROFACET_AS
+    } distribution;
     float alpha_u, alpha_v;
     /* Beckmann masking uses the fit of Walter 2007, page 6, as in Mitsuba; normals are sampled with the exact
      * masking. */
@@ -25,7 +32,7 @@ typedef struct aur_roughness {
 /* Rows for tables of parameters; the struct is zeroed and has a member `aur_roughness microfacet`. */
 #define AUR_MICROFACET_KEYS(struct_)                                                                         \
     {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.constant.distribution, "beckmann",                \
-                       "distribution of facet normals", "beckmann", "ggx")},                                 \
+                       "distribution of facet normals", "beckmann", "ggx", "phong", "as")},                  \
         {AUR_KEY_OF_COLOR(struct_, "alpha", microfacet.alpha, 10.0, "0.1", "roughness"),                     \
          .minimum = AUR_LEAST_ALPHA},                                                                        \
         {AUR_KEY_OF_COLOR(struct_, "alpha_u", microfacet.alpha_u, 10.0, "alpha",                             \
@@ -64,6 +71,8 @@ float aur_microfacet_masking(const aur_microfacet *microfacet, aur_vector direct
 /* The same, or its fit for distributions that use one. */
 float aur_microfacet_fitted_masking(const aur_microfacet *microfacet, aur_vector direction,
                                     aur_vector normal);
+/* The density of visible normals over the pdf below: 1 for all but Phong facets. */
+float aur_microfacet_weight(const aur_microfacet *microfacet, aur_vector view, aur_vector normal);
 /* The pdf with which aur_microfacet_sample draws `normal`; view.z > 0. */
 float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal);
 aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v);

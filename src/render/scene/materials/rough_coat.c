@@ -18,6 +18,7 @@ static void add_facet(const aur_microfacet *microfacet, float ior, aur_vector vi
     if (!(along > 0.0f))
         return;
     float refracted;
+    weight *= (double)aur_microfacet_weight(microfacet, view, normal);
     const float fresnel = aur_fresnel_dielectric(along, ior, &refracted);
     const aur_vector up = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * along, normal);
     const aur_vector down =

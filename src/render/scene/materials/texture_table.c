@@ -9,6 +9,8 @@
 #define TEXTURES(ROW)                                                                                        \
     ROW(bitmap)                                                                                              \
     ROW(checkerboard)                                                                                        \
+    ROW(gridtexture)                                                                                         \
+    ROW(scale)                                                                                               \
     ROW(mesh_attribute)                                                                                      \
     ROW(volume)                                                                                              \
     ROW(uniform)                                                                                             \
