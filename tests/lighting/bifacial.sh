@@ -55,6 +55,11 @@ PY
 run -D angle=0 --sensors cells.pts --bifacial --lift .01 -o lifted.csv
 awk -F, 'NR == 2 { exit !($6 > 0 && $6 < .4 * $4) }' lifted.csv || fail "lift: $(cat lifted.csv)"
 
+# A year without light has no gain.
+awk -F, -v OFS=, 'NR > 8 { $14 = $15 = $16 = 0 } { print }' days.epw >dark.epw
+"$aureole" irradiance site.rad -D angle=0 --weather dark.epw -n 16 --sensors cells.pts --bifacial -o dark.csv 2>said && grep -q "no light on its front over the whole year" said || fail "a dark year: $(cat said)"
+[ "$(sed -n 2p dark.csv | cut -d, -f4-)" = 0,0,0,0,nan,nan ] || fail "a dark year: $(cat dark.csv)"
+
 args="site.rad --weather days.epw --sensors cells.pts -n 16"
 refused '$angle is not defined' $args --bifacial
 refused "--rotation needs --tracker" $args --rotation angle

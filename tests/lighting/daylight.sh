@@ -262,6 +262,11 @@ done
 awk 'BEGIN { print "# hours"; for (i = 0; i < 8760; ++i) print (i % 24 < 8 || i % 24 >= 18 ? ".5,night" : "0,day") }' >nights.csv
 "$aureole" irradiance $yard mixed.epw --up 0,0,1 -n 64 --schedule nights.csv -q -o by-file.csv || fail "--schedule FILE"
 cmp -s at-18-8.csv by-file.csv && ! cmp -s at-8-18.csv by-file.csv || fail "a schedule by file"
+# A schedule without daylight, and a model without a camera, which no sensor needs.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+"$aureole" irradiance one.obj --sensors up.pts --up 0,0,1 -n 16 --weather mixed.epw --schedule 0-3 -o night.csv 2>said || fail "nights"
+grep -q "mixed.epw: no occupied hour has daylight" said && ! grep -q camera said || fail "nights: $(cat said)"
+"$aureole" irradiance one.obj --sensors up.pts --up 0,0,1 -n 16 --weather mixed.epw --schedule 0-9 -o night.csv 2>&1 | grep "no occupied hour" && fail "a morning"
 refused "hours like 8-18 or 22-6, daylight, or a file expected" $yard mixed.epw --schedule 8-8
 for option in "--weather mixed.epw" "--sky uniform" "--parts" "--to csv" "--error 1%"; do
   refused "cannot be used with --coefficients" plane.xml --sensors up.pts --coefficients $option

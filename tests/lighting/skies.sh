@@ -92,4 +92,13 @@ sky 'skybr skybright.cal' '2 1 30' >bad.sky
 refused "bad.sky:1: brightfunc: skybr takes 7 numbers, not 2" irradiance bad.sky open.rad --sensors points.pts
 sky 'skybr other.cal' '3 2 30 5' >bad.sky
 refused "bad.sky:2: glow" irradiance bad.sky open.rad --sensors points.pts
+# Places whose time zone is not theirs: a sign, or degrees east before degrees north.
+zone() { # LOCATION WORDS
+  "$aureole" irradiance zone.rad --sensors zone.pts --sky cie-clear --date 2026-06-21T12:00 --location $1 -n 16 2>&1 | grep -q "the time zone .* hours from that of"
+}
+printf 'void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey polygon p 0 0 9 0 0 -1 1 0 -1 0 1 -1\n' >zone.rad
+echo 0 0 0 0 0 1 >zone.pts
+zone 40,105,-7 || zone 48,-75,1 || fail "a longitude with the wrong sign"
+zone 48,-75,1 || fail "a longitude to the west with a zone to the east"
+for place in 48,11,1 48,11,2 40,-105,-7 -36,174.8,13 52,-179,12 51,0,0; do zone $place && fail "$place is warned of"; done
 finish

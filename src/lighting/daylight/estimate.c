@@ -253,6 +253,12 @@ static void warn(const work *w) {
             "for the irradiances of %zu hours (the first is here) the model of Perez has no light anywhere: "
             "their sky is uniform",
             lit->other_skies);
+    size_t occupied = 0;
+    for (size_t i = 0; i < lit->count; ++i)
+        occupied += lit->hours[i].counts;
+    if (lit->count > 0 && occupied == 0 && w->options->evaluated == NULL)
+        aur_warn_at(to, (aur_location){.file = w->weather->file},
+                    "no occupied hour has daylight: check the schedule and the clock of the weather");
     aur_sensor_oddities odd = {0};
     for (size_t i = 0; i < w->sensors->count; ++i)
         aur_sensor_note(i, w->results[i].on_surface, w->results[i].doubtful, w->results[i].dark,

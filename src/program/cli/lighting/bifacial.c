@@ -274,8 +274,9 @@ static aur_result write_sums(const work *w, const aur_sensors_view *sensors, con
             report_number(table, value[s], DIGITS);
             report_number(table, error[s], DIGITS);
         }
-        report_number(table, 100.0 * value[1] / value[0], DIGITS);
-        report_number(table, 100.0 * (error[1] + value[1] / value[0] * error[0]) / value[0], DIGITS);
+        const double gain = value[0] > 0.0 ? value[1] / value[0] : NAN;
+        report_number(table, 100.0 * gain, DIGITS);
+        report_number(table, isnan(gain) ? NAN : 100.0 * (error[1] + gain * error[0]) / value[0], DIGITS);
     }
     const aur_result result = write_table(w, table, path, strcmp(format, "json") == 0);
     report_destroy(table);

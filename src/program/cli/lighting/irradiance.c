@@ -263,6 +263,8 @@ static aur_scene_options loading(const cli_call *call) {
     load.diffuse = given->definitions.diffuse;
     load.model_light = given->definitions.model_light;
     load.stage.ground = AUR_SCENE_GROUND_NONE;
+    if (call->operand_count == 1 && aur_scene_is_name(call->operands[0]))
+        load.stage.camera = "front"; /* of a model; unused, but no warning of a default one */
     load.progress = given->estimate.progress;
     load.further_count = call->operand_count - 1;
     load.further = (const char *const *)call->operands + 1;
@@ -290,27 +292,37 @@ static aur_result place_grid(irradiance_command *given, const aur_scene *scene, 
 
 /* Warns of probable mistakes in units or positions. */
 static void warn_of_units(const irradiance_command *given, const aur_scene *scene) {
-    static const double LARGEST = 1000.0; /* metres: a room with light sources */
+    static const double SMALLEST = 0.1, LARGEST = 1000.0; /* metres: a room with light sources */
+    static const double ZONE = 3.0;                       /* hours between a time zone and its longitude */
     const aur_warnings warnings = cli_warnings(given->common.quiet);
     aur_scene_description d = {.size = sizeof d};
-    double zero[2] = {1.0, 1.0}, extent = 0.0;
+    double place[3] = {1.0, 1.0, 0.0}, extent = 0.0;
     char text[200];
     aur_scene_get_description(scene, &d, NULL);
     for (size_t i = 0; i < 3; ++i)
         extent = fmax(extent, d.upper[i] - d.lower[i]);
     if (warnings.function == NULL)
         return;
-    if (given->sky.lamp_count > 0 && extent > LARGEST) {
+    if (given->sky.lamp_count > 0 && (extent > LARGEST || extent < SMALLEST)) {
         aur_format(text, sizeof text,
                    "the scene is %.4g units wide and luminaires are in metres: check the units of the scene",
                    extent);
         warnings.function(warnings.user, text);
     }
     const char *const location = given->sky.sky.location;
-    if (location != NULL && sscanf(location, "%lf,%lf", &zero[0], &zero[1]) == 2 && zero[0] == 0.0 &&
-        zero[1] == 0.0)
+    if (location == NULL || cli_split_numbers(location, 3, place) < 2)
+        return;
+    if (place[0] == 0.0 && place[1] == 0.0)
         warnings.function(warnings.user,
                           "--location 0,0 is in the sea: expected degrees north, then degrees east");
+    if (fabs(remainder(place[2] - place[1] / 15.0, 24.0)) > ZONE) {
+        aur_format(
+            text, sizeof text,
+            "--location: the time zone %g is %.1f hours from that of %g degrees east: expected degrees "
+            "north, degrees east, hours ahead of UTC",
+            place[2], fabs(remainder(place[2] - place[1] / 15.0, 24.0)), place[1]);
+        warnings.function(warnings.user, text);
+    }
 }
 
 /* Warns of sensors farther from the scene than its size, as with positions in millimetres. */

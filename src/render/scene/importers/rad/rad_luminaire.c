@@ -312,6 +312,12 @@ aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
     const aur_result result = spot.spot ? fill_cone(self, &spot) : AUR_OK;
     if (result != AUR_OK)
         return result;
+    double most = spot.spot ? 0.0 : 1.0;
+    for (size_t i = 0; i < spot.plane_count * spot.angle_count && spot.spot; ++i)
+        most = fmax(most, spot.values[i]);
+    if (!(most > 0.0))
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "the cone of the spotlight is behind its surface: turn one of them");
     if (!measure(self, luminaire, item, &measured))
         return fail(
             self, item,
