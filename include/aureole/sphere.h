@@ -196,7 +196,7 @@ AUR_API aur_result aur_points_generate(const char *set, const aur_points_request
 
 /* The pixels[count] of HEALPix (Gorski 2005) that contain the vectors xyz[3 * count] of any length except 0:
  * numbers of 12 side^2 pixels in rings, or nested. The set `healpix` has their centres in the same order
- * (order=nested). `capacity` counts pixels. Errors: ARGUMENT for a side beyond 1 to 2^24, a nested one that
+ * (order=nested). `capacity` counts pixels. Errors: ARGUMENT for a side beyond 1 to 2^29, a nested one that
  * is not a power of 2, a zero vector (which); CAPACITY. */
 AUR_API aur_result aur_healpix_pixels(uint64_t side, bool nested, size_t count, const double *xyz,
                                       size_t capacity, uint64_t *pixels, aur_error *error) AUR_NONNULL(4, 6);

@@ -69,7 +69,11 @@ static void directions_have_their_pixels(void **state) {
                     {1024, {0.3, -0.2, 0.9}, 452022, 4043388},
                     {1024, {-0.6, 0.7, -0.2}, 7622094, 10454255},
                     {16777216, {0.123, 0.456, 0.789}, 239780591234526, 138701662095607},
-                    {16777216, {-0.5, 0.1, -0.2}, 2305530657756251, 1728197228684217}};
+                    {16777216, {-0.5, 0.1, -0.2}, 2305530657756251, 1728197228684217},
+                    {1 << 29, {0.123, 0.456, 0.789}, 245535300266565352, 142030501985902575},
+                    {1 << 29, {-0.5, 0.1, -0.2}, 2360863372011539321, 1769673962172638708},
+                    {4, {1e300, 1e300, 1e300}, 42, 3},
+                    {4, {1e-300, 1e-300, 1e-300}, 42, 3}};
     uint64_t pixel;
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; ++k)
         for (int nested = 0; nested < 2; ++nested) {
@@ -79,6 +83,8 @@ static void directions_have_their_pixels(void **state) {
             assert_int_equal(pixel, nested != 0 ? expected[k].nested : expected[k].ring);
         }
     const double none[3] = {0.0};
+    assert_int_equal(aur_healpix_pixels(1 << 30, false, 1, expected[0].direction, 1, &pixel, NULL),
+                     AUR_ERROR_ARGUMENT);
     assert_int_equal(aur_healpix_pixels(3, true, 1, expected[0].direction, 1, &pixel, NULL),
                      AUR_ERROR_ARGUMENT);
     assert_int_equal(aur_healpix_pixels(0, false, 1, expected[0].direction, 1, &pixel, NULL),
@@ -105,11 +111,13 @@ static void centres_lie_in_their_pixels(void **state) {
     }
     for (size_t i = 0; i < 1000; ++i) {
         double direction[3];
-        uint64_t pixels[2];
+        uint64_t pixels[30];
         check_random_direction(5, i, direction);
-        for (size_t k = 0; k < 2; ++k)
-            assert_int_equal(aur_healpix_pixels(SIDE << k, true, 1, direction, 1, pixels + k, NULL), AUR_OK);
-        assert_int_equal(pixels[1] / 4, pixels[0]);
+        for (size_t k = 0; k < 30; ++k) {
+            assert_int_equal(aur_healpix_pixels(UINT64_C(1) << k, true, 1, direction, 1, pixels + k, NULL),
+                             AUR_OK);
+            assert_true(k == 0 || pixels[k] / 4 == pixels[k - 1]);
+        }
     }
 }
 

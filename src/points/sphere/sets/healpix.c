@@ -9,7 +9,8 @@
 #include "points/base/vector.h"
 #include "points/sphere/native.h"
 
-enum { LARGEST_SIDE = 1 << 24, FACES = 12 };
+/* Of the set, and of numbers of pixels in 62 bits. */
+enum { LARGEST_SIDE = 1 << 24, LARGEST_INDEX_SIDE = 1 << 29, FACES = 12 };
 
 typedef struct healpix {
     uint64_t side; /* k */
@@ -81,19 +82,23 @@ static void place_in_belt(uint64_t side, uint64_t pixel, double *xyz) {
     place(z, sqrt((1.0 - z) * (1.0 + z)), AUR_PI / 2.0 * turned / (double)side, xyz);
 }
 
+/* The bits of all pairs, nibbles, ... of a number, and so on: groups of 1, 2, 4, ... bits, every other one.
+ */
+static const uint64_t groups[] = {0x5555555555555555, 0x3333333333333333, 0x0f0f0f0f0f0f0f0f,
+                                  0x00ff00ff00ff00ff, 0x0000ffff0000ffff, 0x00000000ffffffff};
+
 /* Every other bit, from the lowest on. */
 static uint64_t even_bits(uint64_t x) {
-    uint64_t found = 0;
-    for (unsigned k = 0; k < 32; ++k)
-        found |= (x >> 2 * k & 1u) << k;
-    return found;
+    x &= groups[0];
+    for (unsigned k = 0; k < 5; ++k)
+        x = (x | x >> (1u << k)) & groups[k + 1];
+    return x;
 }
 
 static uint64_t spread_bits(uint64_t x) {
-    uint64_t found = 0;
-    for (unsigned k = 0; k < 32; ++k)
-        found |= (x >> k & 1u) << 2 * k;
-    return found;
+    for (unsigned k = 5; k > 0; --k)
+        x = (x | x << (1u << (k - 1))) & groups[k - 1];
+    return x;
 }
 
 /* A position on one of the twelve faces: x to the north-east, y to the north-west. */
@@ -120,6 +125,11 @@ static uint64_t ring_of_nested(uint64_t side, uint64_t pixel) {
     return before + (along - 1) % (4 * length);
 }
 
+/* `at` modulo `length`, of at most twice the length. */
+static uint64_t wrapped(uint64_t at, uint64_t length) {
+    return at < length ? at : at - length;
+}
+
 static uint64_t pixel_in_belt(uint64_t side, bool nested, double z, double quarters) {
     const double across = (double)side * (0.5 + quarters), along = (double)side * 0.75 * z;
     const uint64_t down = (uint64_t)(across - along), up = (uint64_t)(across + along);
@@ -132,8 +142,8 @@ static uint64_t pixel_in_belt(uint64_t side, bool nested, double z, double quart
                          up & (side - 1), side - (down & (side - 1)) - 1);
     }
     const uint64_t ring = side + 1 + down - up, turned = ring % 2 == 0 ? 1 : 0;
-    const uint64_t at = (down + up + 7 * side + turned + 1) / 2 % (4 * side);
-    return 2 * side * (side - 1) + (ring - 1) * 4 * side + at;
+    const uint64_t at = (down + up + 7 * side + turned + 1) / 2 - 4 * side;
+    return 2 * side * (side - 1) + (ring - 1) * 4 * side + wrapped(at, 4 * side);
 }
 
 static uint64_t least_of(uint64_t a, uint64_t b) {
@@ -149,21 +159,25 @@ static uint64_t pixel_near_pole(uint64_t side, bool nested, double depth, bool n
     if (nested)
         return north ? nested_of(side, quarter, side - up - 1, side - down - 1)
                      : nested_of(side, quarter + 8, down, up);
-    const uint64_t ring = down + up + 1, at = (uint64_t)(quarters * (double)ring) % (4 * ring);
+    const uint64_t ring = down + up + 1, at = wrapped((uint64_t)(quarters * (double)ring), 4 * ring);
     return north ? 2 * ring * (ring - 1) + at : 12 * side * side - 2 * ring * (ring + 1) + at;
 }
 
 aur_result aur_healpix_pixels(uint64_t side, bool nested, size_t count, const double *xyz, size_t capacity,
                               uint64_t *pixels, aur_error *error) {
-    if (side == 0 || side > LARGEST_SIDE || (nested && !is_power(side)))
+    if (side == 0 || side > LARGEST_INDEX_SIDE || (nested && !is_power(side)))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the side of HEALPix's pixels must be from 1 to %d%s, not %llu", LARGEST_SIDE,
+                        "the side of HEALPix's pixels must be from 1 to %d%s, not %llu", LARGEST_INDEX_SIDE,
                         nested ? ", a power of 2" : "", (unsigned long long)side);
     if (capacity < count)
         return aur_fail(error, AUR_ERROR_CAPACITY, "%zu pixels do not fit into %zu", count, capacity);
     for (size_t i = 0; i < count; ++i) {
-        const double x = xyz[3 * i], y = xyz[3 * i + 1], across = hypot(x, y),
-                     length = hypot(across, xyz[3 * i + 2]);
+        const double x = xyz[3 * i], y = xyz[3 * i + 1];
+        double across = sqrt(x * x + y * y), length = sqrt(x * x + y * y + xyz[3 * i + 2] * xyz[3 * i + 2]);
+        if (!(length > 1e-100 && length < 1e100)) { /* squares may be beyond the range of numbers */
+            across = hypot(x, y);
+            length = hypot(across, xyz[3 * i + 2]);
+        }
         if (!(length > 0.0 && length < INFINITY))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "vector %zu has no direction", i + 1);
         const double z = xyz[3 * i + 2] / length, quarters = atan2(y, x) / (AUR_PI / 2.0);
