@@ -101,4 +101,30 @@ echo 0 0 0 0 0 1 >zone.pts
 zone 40,105,-7 || zone 48,-75,1 || fail "a longitude with the wrong sign"
 zone 48,-75,1 || fail "a longitude to the west with a zone to the east"
 for place in 48,11,1 48,11,2 40,-105,-7 -36,174.8,13 52,-179,12 51,0,0; do zone $place && fail "$place is warned of"; done
+# gendaylit and gensky as commands: the irradiances that they state, on planes that face up, down and the sun, which -s takes away.
+printf '0 0 0 0 0 1\n0 0 0 0 0 -1\n0 0 0 -.26200263 -.71984632 .64278761\n' >planes.pts
+sources='skyfunc glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\nskyfunc glow h 0 0 4 1 1 1 0\nh source ground 0 0 4 0 0 -1 180\n'
+planes() { # COMMAND: red of the three planes
+  printf "$1\n$sources" >command.rad
+  "$aureole" irradiance -q command.rad --sensors planes.pts -n 16384 --no-errors -o planes.csv && awk -F, 'NR > 1 { print $4 }' planes.csv | paste -sd' '
+}
+# The sky and the ground mix about the horizon, which is some .6 % of the ground.
+close() { # WANTED FOUND, within 1 %
+  awk -v a="$1" -v b="$2" 'BEGIN { n = split(a, x, " "); if (split(b, y, " ") < n) exit 1; for (i = 1; i <= n; ++i) { d = y[i] - x[i]; if (d < 0) d = -d; if (d > .01 * x[i]) exit 1 } }' || fail "$3: $2, not $1"
+}
+all=$(awk 'BEGIN { print 100 + 700 * .64278761 }') ground=$(awk 'BEGIN { print .3 * (100 + 700 * .64278761) }')
+found=$(planes '!gendaylit -ang 40 20 -W 700 100 -g .3 -O 1')
+close "$all $ground" "$found" gendaylit
+shaded=$(planes '!gendaylit -ang 40 20 -W 700 100 -g .3 -O 1 -s')
+close "100 $ground" "$shaded" "gendaylit -s"
+close 700 "$(awk -v a="$found" -v b="$shaded" 'BEGIN { split(a, x, " "); split(b, y, " "); print x[3] - y[3] }')" "the sun of gendaylit"
+close "$found" "$(planes '!gendaylit -ang 40 20 -G 449.95133 100 -g .3 -O 1')" "gendaylit -G"
+close "100 20" "$(planes '!gensky -ang 40 20 -c -B 100')" "gensky -c"
+close "100 40 $(awk 'BEGIN { c = .64278761; print 100 * (1 + c) / 2 + 40 * (1 - c) / 2 }')" "$(planes '!gensky -u -B 100 -g .4 -ang 40 20')" "gensky -u"
+for bad in 'gendaylit 6 21 12 -W 700 100 -O 1' 'gendaylit -ang 40 20 -W 700 100' 'gendaylit -ang 40 20 -O 1' 'gensky 6 21 12 +s' 'gensky -ang 40 20 -c'; do
+  printf '!%s\n' "$bad" >bad.rad
+  refused "bad.rad:1: ${bad%% *}: " irradiance bad.rad --sensors planes.pts
+done
+printf '!gendaylit -ang -4 20 -W 0 10 -O 1\n' >bad.rad
+refused "a sun above the horizon expected" irradiance bad.rad --sensors planes.pts
 finish

@@ -417,9 +417,9 @@ static aur_result read_pipes(aur_rad *self, size_t at, size_t count) {
     return result;
 }
 
-/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...`, `!genprism ...` and `!genrev ...`, each
- * optionally piped into xform. `command` is the word with the exclamation mark, or `!` alone if a blank
- * follows. */
+/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...`, `!genprism ...`, `!genrev ...`, `!gendaylit ...`
+ * and `!gensky ...`, each optionally piped into xform. `command` is the word with the exclamation mark, or
+ * `!` alone if a blank follows. */
 static aur_result read_command(aur_rad *self, aur_rad_word command) {
     size_t count = 0, used = 0;
     aur_result result = read_line(self, command, &count);
@@ -432,6 +432,12 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
     if (result == AUR_OK)
         result = read_pipes(self, end, count);
     self->nodes->location.line = command.line;
+    if (result == AUR_OK && (aur_rad_is_word(name, "gendaylit") || aur_rad_is_word(name, "gensky"))) {
+        aur_rad_material pattern = {.name = {"skyfunc", 7, command.line}};
+        self->pose_count = 0;
+        result = aur_rad_read_daylight(self, end, self->words, &pattern);
+        return result == AUR_OK ? add_material(self, pattern) : result;
+    }
     if (result == AUR_OK && includes)
         return take_files(self, 1 + used, end, moves ? "xform" : "cat");
     bool recognised = true;
@@ -441,8 +447,8 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
     return recognised
                ? result
                : aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
-                              "the command '%.*s' is not run, only cat, xform, genbox, genprism and genrev "
-                              "are: write what it makes into a file and include that",
+                              "the command '%.*s' is not run, only cat, xform, genbox, genprism, genrev, "
+                              "gendaylit and gensky are: write what it makes into a file and include that",
                               name.length > 40 ? 40 : (int)name.length, name.text);
 }
 

@@ -34,6 +34,8 @@ typedef struct aur_rad_primitive {
  * perezlum.cal. */
 typedef struct aur_rad_sky {
     bool perez;
+    bool by_irradiance; /* numbers: the sun's normal and the sky's horizontal irradiance, the ground's
+                         * radiance, then the sun as the last three */
     double numbers[10];
 } aur_rad_sky;
 
@@ -134,6 +136,10 @@ typedef struct aur_rad_generator {
  * Errors: FORMAT, UNSUPPORTED, OPEN for a file of corners, and the result of `take`. */
 aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *words, aur_rad_take *take,
                             bool *recognised);
+/* gendaylit and gensky: the pattern `skyfunc`, and the sun of gendaylit. Errors: FORMAT, MEMORY; UNSUPPORTED
+ * for options by date or without irradiances. */
+aur_result aur_rad_read_daylight(aur_rad *self, size_t count, const aur_rad_word *words,
+                                 aur_rad_material *material);
 aur_result aur_rad_generate_prism(aur_rad_generator *self);
 aur_result aur_rad_generate_revolution(aur_rad_generator *self);
 /* Parses the next `count` words as numbers; `what` names them in the message. Errors: FORMAT. */

@@ -212,6 +212,10 @@ typedef struct sky_form {
 /* False for an intermediate sky, which the emitter cannot represent. */
 static bool read_form(const aur_rad_sky *sky, sky_form *form) {
     const double *const x = sky->numbers;
+    if (sky->by_irradiance) {
+        *form = (sky_form){.model = "perez", .ground = x[2], .sun = x + 7};
+        return true;
+    }
     *form = (sky_form){.model = "cie", .scale = x[0], .ground = x[1], .sun = x + 7};
     if (sky->perez) {
         memcpy(form->gradation, x + 2, sizeof form->gradation);
@@ -250,6 +254,18 @@ static void add_form(aur_rad *self, aur_xml_node *sky, const sky_form *form, con
     aur_node_numbers(self->nodes, sky, "rgb", "zenith_radiance", 3, radiance);
 }
 
+/* The sky of gendaylit by the irradiances of its command. */
+static void add_irradiances(aur_rad *self, aur_xml_node *sky, const aur_rad_material *material) {
+    const double *const x = material->sky->numbers, *const colour = material->radiance;
+    const double irradiance[3] = {x[1] * colour[0], x[1] * colour[1], x[1] * colour[2]};
+    double sun[3] = {x[7], x[8], x[9]};
+    turn(self, sun);
+    aur_node_numbers(self->nodes, sky, "vector", "sun_direction", 3, sun);
+    aur_node_numbers(self->nodes, sky, "rgb", "irradiance", 3, irradiance);
+    aur_node_property(self->nodes, sky, "float", "direct_normal", "%.17g", x[0]);
+    aur_node_property(self->nodes, sky, "float", "diffuse_horizontal", "%.17g", x[1]);
+}
+
 /* A source of the upper hemisphere is a sky; a following one of the lower hemisphere is its ground. */
 static aur_result add_sky(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
     const double *const x = item->numbers;
@@ -278,7 +294,10 @@ static aur_result add_sky(aur_rad *self, const aur_rad_primitive *item, const au
         aur_node_numbers(nodes, sky, "vector", "up", 3, up);
         aur_node_numbers(nodes, sky, "vector", "north", 3, north);
         aur_node_property(nodes, sky, "boolean", "blend_horizon", "true");
-        add_form(self, sky, &form, material->radiance);
+        if (material->sky->by_irradiance)
+            add_irradiances(self, sky, material);
+        else
+            add_form(self, sky, &form, material->radiance);
     }
     if (!above || x[3] == 360.0) {
         const double *const colour = material->radiance;
