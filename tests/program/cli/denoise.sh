@@ -16,12 +16,12 @@ AUREOLE_OIDN=$stub render -o none.exr --denoise --shard 1/2 2>message.txt
 [ $? -eq 2 ] && grep -q -- "'--denoise' cannot be used with '--shard'" message.txt || fail "a part: $(cat message.txt)"
 
 # What the camera sees of the lamp, as the features tell it: by the samples alone.
-render -o lights.exr --integrator path:max_depth=1,lamp_rays=0 --sampler sobol --spp 16 && "$aureole" convert lights.exr lights.pfm --channels R,G,B || fail "no lights"
+render -o lights.exr --filter box --integrator path:max_depth=1,lamp_rays=0 --sampler sobol --spp 16 && "$aureole" convert lights.exr lights.pfm --channels R,G,B || fail "no lights"
 
-check() { # check NAME OPTION...: NAME.exr is made of what stands in it, and its noisy channels are the picture without --denoise
+check() { # check NAME OPTION...: NAME.exr is made of what stands in it, and its noisy channels are the picture by the filter box without --denoise
   local name=$1
   shift
-  render -o plain.exr "$@" && AUREOLE_OIDN=$stub render -o "$name.exr" --denoise "$@" || { fail "$name: no picture"; return; }
+  render -o plain.exr --filter box "$@" && AUREOLE_OIDN=$stub render -o "$name.exr" --denoise "$@" || { fail "$name: no picture"; return; }
   "$aureole" convert plain.exr plain.pfm --channels R,G,B
   for part in R,G,B noisy.R,noisy.G,noisy.B albedo.R,albedo.G,albedo.B normal.X,normal.Y,normal.Z; do
     "$aureole" convert "$name.exr" "${part%%.*}.pfm" --channels "$part" || fail "$name: no channels $part"
@@ -73,31 +73,18 @@ check a --spp 2
 check b --rounds 2
 # Four samples per pixel leave pixels far from all around them: the denoiser takes them away, and the limit brings none back.
 export STUB_BLURS=1
-render -o plain.exr --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --denoise || fail "no blurred image"
+render -o plain.exr --filter box --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --denoise || fail "no blurred image"
 unset STUB_BLURS
 "$aureole" convert plain.exr plain.pfm --channels R,G,B && "$aureole" convert e.exr e.pfm --channels R,G,B || fail "no channels"
-python3 - <<'END' || fail "isolated pixels"
-import array
-def isolated(name):
-    with open(name, "rb") as file:
-        head, size, scale, data = file.read().split(b"\n", 3)
-    width, height = map(int, size.split())
-    green = array.array("f", data)[1::3]
-    count = 0
-    for y in range(height):
-        for x in range(width):
-            near = [green[v * width + u] for v in range(max(y - 1, 0), min(y + 2, height)) for u in range(max(x - 1, 0), min(x + 2, width)) if (u, v) != (x, y)]
-            count += green[y * width + x] > 1.5 * max(near) or 1.5 * green[y * width + x] < min(near)
-    return count
-noisy, clean = isolated("plain.pfm"), isolated("e.pfm")
-print(noisy, "isolated pixels of the noisy image,", clean, "of the denoised one")
-assert noisy > 10 and clean == 0, (noisy, clean)
-END
+isolated() { python3 "$source/tests/program/cli/isolated.py" "$1"; }
+noisy=$(isolated plain.pfm) clean=$(isolated e.pfm)
+echo "isolated pixels, bright and dark: $noisy of the noisy image, $clean of the denoised one"
+[ "${noisy% *}" -gt 10 ] && [ "${clean% *}" -eq 0 ] || fail "isolated pixels"
 # The error of what is denoised is estimated by two halves.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
 grep -q 'denoised half of the samples: [0-9.]* % of the local mean (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
 # Where the image has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"
-AUREOLE_OIDN=$stub render -o d.png --denoise --spp 2 && [ -s d.png ] && render -o plain.exr --spp 2 && cmp d.noisy.exr plain.exr || fail "a PNG and what stands beside it"
+AUREOLE_OIDN=$stub render -o d.png --denoise --spp 2 && [ -s d.png ] && render -o plain.exr --filter box --spp 2 && cmp d.noisy.exr plain.exr || fail "a PNG and what stands beside it"
 exit $((failures > 0))

@@ -5,9 +5,10 @@
 #include <string.h>
 
 const cli_option cli_denoise_options[] = {
-    {CLI_FLAG(cli_denoise, enabled, "denoise",
-              "denoise with Open Image Denoise (library from AUREOLE_OIDN or the system); the noisy image is "
-              "written to the channels noisy.R, noisy.G, noisy.B")},
+    {CLI_FLAG(
+        cli_denoise, enabled, "denoise",
+        "denoise with Open Image Denoise (library from AUREOLE_OIDN or the system), by the filter box unless "
+        "--filter names one; the noisy image is written to the channels noisy.R, noisy.G, noisy.B")},
     {.key = {0}}};
 
 aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error) {

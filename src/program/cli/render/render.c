@@ -442,6 +442,9 @@ static int run(const cli_call *call) {
         return cli_fail(&bad);
     if (command->denoise.enabled) /* denoising is limited by each pixel's standard error */
         command->target.error_map = true;
+    if (command->denoise.enabled &&
+        command->options.filter == NULL) /* denoisers keep noise that pixels share */
+        command->options.filter = "box";
     const int status = announce(call, command, output);
     if (status != CLI_SUCCESS)
         return status;
