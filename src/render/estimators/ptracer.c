@@ -143,26 +143,6 @@ static bool connect(const round_work *work, const particle *at, const float lens
         aur_vector_scale(aur_vector_multiply(aur_vector_multiply(at->power, value), passed), density));
 }
 
-/* The weight of a particle that continues in a sampled direction: adjoint, as above. */
-static aur_vector adjoint_weight(const particle *at, const aur_shading *shading,
-                                 const aur_bsdf_sample *sample) {
-    const aur_vector normal = at->surface->geometric_normal;
-    const float cos_in = fabsf(aur_vector_dot(normal, at->in));
-    const float cos_out = fabsf(aur_vector_dot(normal, sample->light));
-    const aur_shading reversed = aur_shading_at(at->surface, sample->light);
-    if (!(cos_in > 0.0f))
-        return (aur_vector){0};
-    if (sample->specular) {
-        const float bent =
-            fabsf(shading->view.z) * cos_out / (aur_larger(fabsf(reversed.view.z), 1e-6f) * cos_in);
-        return aur_vector_scale(sample->weight,
-                                bent * (sample->ior_squared > 0.0f ? sample->ior_squared : 1.0f));
-    }
-    float pdf;
-    return aur_vector_scale(aur_shading_evaluate(&reversed, AUR_BSDF_WHOLE, at->in, &pdf),
-                            cos_out / (cos_in * sample->pdf));
-}
-
 /* Pairs of numbers of a light path. */
 enum { PAIR_LIGHT, PAIR_POSITION, PAIR_DIRECTION, PAIR_VERTEX, LENS = 0, LOBE, TOWARDS, PAIRS_A_VERTEX };
 
@@ -196,7 +176,8 @@ static bool trace_light(const round_work *work, size_t number, splats *list) {
         if (!aur_shading_sample(
                 &shading, (const float[3]){pairs[LOBE][0], pairs[TOWARDS][0], pairs[TOWARDS][1]}, &sample))
             return true;
-        const aur_vector weight = adjoint_weight(&at, &shading, &sample);
+        const aur_vector weight =
+            aur_vertex_adjoint(&shading, &sample, at.in, surface.geometric_normal, 0.0f);
         power = aur_vector_multiply(at.power, weight);
         const float survival = aur_particle_survival(at.power, power);
         if (!(survival > 0.0f) ||

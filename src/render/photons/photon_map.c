@@ -41,20 +41,8 @@ static bool store(photon_chunk *chunk, aur_photon photon) {
     return true;
 }
 
-/* Particles are scattered by the adjoint BSDF: light that arrives from `in` and leaves to `out`, where the
- * sampling routine thinks of `in` as the view. They differ for BSDFs that are not reciprocal. */
-static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_sample *sample,
-                                 aur_vector in_world) {
-    if (sample->specular)
-        return sample->ior_squared > 0.0f ? aur_vector_scale(sample->weight, sample->ior_squared)
-                                          : sample->weight;
-    const aur_shading reversed = aur_shading_at(shading->surface, sample->light);
-    const float cos_in = fmaxf(fabsf(shading->view.z), 0.01f);
-    const float cos_out = fabsf(reversed.view.z);
-    float pdf;
-    return aur_vector_scale(aur_shading_evaluate(&reversed, AUR_BSDF_WHOLE, in_world, &pdf),
-                            cos_out / (cos_in * sample->pdf));
-}
+/* Cosines of incidence below this are taken as this, which bounds the power of photons. */
+static const float LEAST_COSINE = 0.01f;
 
 enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
 
@@ -124,7 +112,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const bool bent = !aur_is_unbent(ray.direction, sample.light);
         if (kind == AUR_PHOTONS_FOUND && hidden && specular_so_far && bent)
             return true;
-        const aur_vector weight = adjoint_weight(&shading, &sample, in);
+        const aur_vector weight = aur_vertex_adjoint(&shading, &sample, in, surface.frame.z, LEAST_COSINE);
         const aur_vector before = power;
         power = aur_vector_multiply(before, weight);
         if (!aur_vertex_survives(aur_particle_survival(before, power), lobe[1], &power))

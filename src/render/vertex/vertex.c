@@ -59,6 +59,24 @@ bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, co
     return sample->pdf > 0.0f;
 }
 
+aur_vector aur_vertex_adjoint(const aur_shading *shading, const aur_bsdf_sample *sample, aur_vector in,
+                              aur_vector normal, float least) {
+    const float cos_in = fabsf(aur_vector_dot(normal, in));
+    const float cos_out = fabsf(aur_vector_dot(normal, sample->light));
+    const aur_shading reversed = aur_shading_at(shading->surface, sample->light);
+    if (!(cos_in > 0.0f))
+        return (aur_vector){0};
+    if (sample->specular) {
+        const float bent =
+            fabsf(shading->view.z) * cos_out / (aur_larger(fabsf(reversed.view.z), 1e-6f) * cos_in);
+        return aur_vector_scale(sample->weight,
+                                bent * (sample->ior_squared > 0.0f ? sample->ior_squared : 1.0f));
+    }
+    float pdf;
+    return aur_vector_scale(aur_shading_evaluate(&reversed, AUR_BSDF_WHOLE, in, &pdf),
+                            cos_out / (aur_larger(cos_in, least) * sample->pdf));
+}
+
 /* Sets the unoccluded contribution of a light sample; false if it is zero. */
 static bool set_radiance(const aur_light_sample *light, aur_vector value, float weight, aur_shadow *shadow) {
     const aur_vector radiance = aur_vector_multiply(value, light->radiance);

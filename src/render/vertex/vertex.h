@@ -70,6 +70,13 @@ aur_vector aur_vertex_evaluate(const aur_shading *shading, aur_vertex_lobes lobe
 bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3],
                           aur_bsdf_sample *sample);
 
+/* The weight of a particle of light that arrives from `in` (world), the view of `shading`, and continues in
+ * the sampled direction: by the adjoint BSDF, as light leaves where the sampling routine thinks that it
+ * arrives (Veach 1997, section 5.3.2). Power counts per area perpendicular to `normal`. Unless the scattering
+ * is specular, a cosine of incidence below `least` is taken as `least`, which bounds the weight. */
+aur_vector aur_vertex_adjoint(const aur_shading *shading, const aur_bsdf_sample *sample, aur_vector in,
+                              aur_vector normal, float least);
+
 /* --- a point on a light */
 
 /* A light sample before its visibility is tested. */

@@ -1,5 +1,6 @@
-/* A vertex of a light path: the two MIS weights of a light sum to 1, roulette preserves the mean, and the
- * lobes in the photon map together with the others give the light of all lobes. */
+/* A vertex of a light path: the two MIS weights of a light sum to 1, roulette preserves the mean, the lobes
+ * in the photon map together with the others give the light of all lobes, and particles of light have the
+ * weights of the adjoint BSDF. */
 #include "render/material/materials.h"
 
 #include "render/vertex/vertex.h"
@@ -129,12 +130,47 @@ static void directions_have_the_density_of_evaluation(void **state) {
     }
 }
 
+/* Closed forms. Diffuse with albedo a, drawn by the cosine to the shading normal: a times that cosine of
+ * incidence over the other normal's, times the same of the other normal after scattering; a mirror has equal
+ * cosines to the shading normal on both sides. */
+static void particles_have_adjoint_weights(void **state) {
+    (void)state;
+    static const char *const texts[] = {"diffuse:reflectance=0.5", "conductor"};
+    for (size_t m = 0; m < 2; ++m) {
+        aur_bsdf *const bsdf = make_bsdf(texts[m], NULL);
+        aur_surface surface = surface_of(bsdf);
+        surface.geometric_normal = aur_vector_normalize((aur_vector){0.3f, -0.2f, 1.0f});
+        const aur_vector shading_normal = surface.frame.z, geometric_normal = surface.geometric_normal;
+        uint64_t hash = m;
+        for (size_t i = 0; i < 200; ++i) {
+            const float slope = i < 100 ? 0.5f : 0.002f; /* of incidence: the second below `least` */
+            const aur_vector in = aur_vector_normalize((aur_vector){0.4f, -0.8f, slope});
+            const aur_shading shading = aur_shading_at(&surface, in);
+            float u[3];
+            aur_bsdf_sample sample;
+            aur_draw_units(&hash, u);
+            if (!aur_shading_sample(&shading, u, &sample))
+                continue;
+            const double before = (double)aur_vector_dot(geometric_normal, in),
+                         after = (double)aur_vector_dot(geometric_normal, sample.light);
+            const double ratio = m == 0 ? (double)in.z / (double)sample.light.z : 1.0;
+            const aur_vector geometric = aur_vertex_adjoint(&shading, &sample, in, geometric_normal, 0.0f);
+            assert_relative((double)geometric.x, (double)sample.weight.x * ratio * after / before, 1e-4);
+            const aur_vector shaded = aur_vertex_adjoint(&shading, &sample, in, shading_normal, 0.01f);
+            const double bounded = m == 0 ? fmin(1.0, (double)in.z / 0.01) : 1.0;
+            assert_relative((double)shaded.x, (double)sample.weight.x * bounded, 1e-4);
+        }
+        aur_bsdf_destroy(bsdf);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weights_of_both_strategies_add_up_to_one),
         cmocka_unit_test(roulette_preserves_the_mean),
         cmocka_unit_test(lobes_with_and_without_a_map_are_all),
         cmocka_unit_test(directions_have_the_density_of_evaluation),
+        cmocka_unit_test(particles_have_adjoint_weights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
