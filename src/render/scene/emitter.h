@@ -35,8 +35,9 @@ typedef struct aur_emitter_descriptor {
     void (*bounds)(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds);
     /* As aur_light_sample_direct for this light alone. */
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
-    /* `sample` for the active lanes of a packet; false: not supported, call `sample`. Those of environments
-     * never return false. May be NULL. */
+    /* `sample` for the active lanes of a packet, all of which chose this light as a whole; others become
+     * undefined. False: not supported, call `sample`. Those of environments never return false. May be NULL.
+     */
     bool (*lanes)(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
                   const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */

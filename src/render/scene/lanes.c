@@ -2,18 +2,38 @@
 
 #include "render/scene/scene_data.h"
 
+static aur_light_reference reference_of(const aur_light_references *references, size_t lane) {
+    return (aur_light_reference){aur_lane_vector(references->position, lane),
+                                 aur_lane_vector(references->normal, lane)};
+}
+
+static void set_lane(const aur_light_sample *sample, size_t lane, aur_light_lanes *lights) {
+    aur_lane_set(&lights->position, lane, sample->position);
+    aur_lane_set(&lights->direction, lane, sample->direction);
+    aur_lane_set(&lights->radiance, lane, sample->radiance);
+    lights->pdf[lane] = sample->pdf;
+    lights->reachable[lane] = sample->delta ? 0.0f : 1.0f;
+}
+
 static void light_lane(const aur_scene *scene, const aur_light_references *references, const float u[3],
                        size_t lane, aur_light_lanes *lights) {
-    const aur_light_reference reference = {aur_lane_vector(references->position, lane),
-                                           aur_lane_vector(references->normal, lane)};
+    const aur_light_reference reference = reference_of(references, lane);
     aur_light_sample one;
     if (!aur_light_sample_direct(scene, &reference, u, &one))
         one = (aur_light_sample){0};
-    aur_lane_set(&lights->position, lane, one.position);
-    aur_lane_set(&lights->direction, lane, one.direction);
-    aur_lane_set(&lights->radiance, lane, one.radiance);
-    lights->pdf[lane] = one.pdf;
-    lights->reachable[lane] = one.delta ? 0.0f : 1.0f;
+    set_lane(&one, lane, lights);
+}
+
+/* All lanes by vector code, for a light that they chose with the same probability; false: not supported. */
+static bool sample_together(const aur_emitter *emitter, uint32_t lanes,
+                            const aur_light_references *references, const float *u, const float *v,
+                            aur_light_lanes *lights) {
+    if (emitter->descriptor->lanes == NULL ||
+        !emitter->descriptor->lanes(emitter, lanes, references, u, v, lights))
+        return false;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        lights->pdf[k] *= emitter->probability;
+    return true;
 }
 
 /* The lanes whose light is the scene's single environment, which samples them together. */
@@ -38,23 +58,86 @@ void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_ligh
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
     const bool chooses = aur_light_chooses(scene);
     const uint32_t far = far_lanes(scene, lanes, choice, u, v);
-    if (far != 0) {
-        const aur_emitter *const environment = scene->environments[0];
-        environment->descriptor->lanes(environment, far, references, u, v, lights);
-    }
+    if (far != 0)
+        sample_together(scene->environments[0], far, references, u, v, lights);
     for (uint32_t rest = lanes & ~far; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
         light_lane(scene, references, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k, lights);
     }
 }
 
+/* The choices of sixteen lanes. */
+typedef struct light_choices {
+    aur_chosen_light lights[AUR_PACKET_SIZE];
+    float rest[AUR_PACKET_SIZE][3];
+} light_choices;
+
+/* Returns the lanes that have a light; the others get none. */
+static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                              const float *choice, const float *u, const float *v, light_choices *choices,
+                              aur_light_lanes *lights) {
+    uint32_t lit = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_light_reference reference = reference_of(references, k);
+        float *const numbers = choices->rest[k];
+        numbers[0] = choice[k];
+        numbers[1] = u[k];
+        numbers[2] = v[k];
+        if (aur_light_choose(scene, &reference, numbers, &choices->lights[k]))
+            lit |= 1u << k;
+        else
+            set_lane(&(aur_light_sample){0}, k, lights);
+    }
+    return lit;
+}
+
+/* Samples the light that all of `lanes` chose: by vector code if there is any. Also for a single lane, so
+ * that a lane's bits do not depend on the others. */
+static void sample_light(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                         const light_choices *choices, const float *u, const float *v,
+                         aur_light_lanes *lights) {
+    const aur_emitter *const emitter = choices->lights[__builtin_ctz(lanes)].emitter;
+    const bool overlaps = emitter->descriptor->radiance_from != NULL && scene->environment_count > 1;
+    aur_light_lanes drawn = {0}; /* directions are not always set */
+    const bool together = !overlaps && emitter->descriptor->lanes != NULL &&
+                          emitter->descriptor->lanes(emitter, lanes, references, u, v, &drawn);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t k = (size_t)__builtin_ctz(lanes);
+        const aur_chosen_light *const chosen = &choices->lights[k];
+        aur_light_sample one;
+        if (together) {
+            one = aur_light_lane(&drawn, k);
+            one.pdf *= chosen->probability;
+        } else {
+            const aur_light_reference reference = reference_of(references, k);
+            if (!aur_light_sample_chosen(scene, chosen, &reference, choices->rest[k], &one))
+                one = (aur_light_sample){0};
+        }
+        set_lane(&one, k, lights);
+    }
+}
+
 void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
-    const aur_emitter *const only =
-        scene->emitter_count == 1 && !aur_light_chooses(scene) ? scene->emitters[0] : NULL;
-    if (only == NULL || only->descriptor->lanes == NULL ||
-        !only->descriptor->lanes(only, lanes, references, u, v, lights))
-        aur_light_lanes_each(scene, lanes, references, choice, u, v, lights);
+    if (!aur_light_chooses(scene)) {
+        if (scene->emitter_count != 1 ||
+            !sample_together(scene->emitters[0], lanes, references, u, v, lights))
+            aur_light_lanes_each(scene, lanes, references, choice, u, v, lights);
+        return;
+    }
+    light_choices choices;
+    uint32_t rest = choose_lights(scene, lanes, references, choice, u, v, &choices, lights);
+    while (rest != 0) {
+        const aur_emitter *const first = choices.lights[__builtin_ctz(rest)].emitter;
+        uint32_t same = 0;
+        for (uint32_t others = rest; others != 0; others &= others - 1) {
+            const size_t k = (size_t)__builtin_ctz(others);
+            same |= (uint32_t)(choices.lights[k].emitter == first) << k;
+        }
+        sample_light(scene, same, references, &choices, u, v, lights);
+        rest &= ~same;
+    }
 }
 
 void aur_environment_lanes(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *directions,

@@ -48,7 +48,7 @@ static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, siz
  * otherwise be NULL. Bit-identical to single samples; environment maps are sampled together. */
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-/* The same up to rounding: a single rectangular light is sampled by vector code. */
+/* The same up to rounding: rectangular lights are sampled by vector code. */
 void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights);
 /* aur_environment_light for active lanes. */

@@ -1,18 +1,15 @@
 /* Selection of lights, and sampling of points and directions on them. */
 #include "render/scene/scene_data.h"
 
-bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
+bool aur_light_sample_chosen(const aur_scene *scene, const aur_chosen_light *chosen,
+                             const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample) {
-    aur_light_query query = {.reference = *reference, .u = {u[0], u[1], u[2]}};
-    aur_chosen_light chosen;
-    if (!aur_light_choose(scene, reference, query.u, &chosen))
-        return false;
-    const aur_emitter *const emitter = chosen.emitter;
-    query.part = chosen.part;
+    const aur_emitter *const emitter = chosen->emitter;
+    const aur_light_query query = {.reference = *reference, .u = {u[0], u[1], u[2]}, .part = chosen->part};
     *sample = (aur_light_sample){0};
     if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
-    sample->pdf *= chosen.probability;
+    sample->pdf *= chosen->probability;
     sample->emitter = emitter->index;
     sample->environment = emitter->descriptor->radiance_from != NULL;
     /* Overlapping environments count as one light, as for rays that reach them. */
@@ -20,6 +17,14 @@ bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *
         sample->radiance = aur_environment_light(scene, sample->direction, &sample->pdf);
     }
     return true;
+}
+
+bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
+                             aur_light_sample *sample) {
+    float rest[3] = {u[0], u[1], u[2]};
+    aur_chosen_light chosen;
+    return aur_light_choose(scene, reference, rest, &chosen) &&
+           aur_light_sample_chosen(scene, &chosen, reference, rest, sample);
 }
 
 bool aur_light_chooses(const aur_scene *scene) {

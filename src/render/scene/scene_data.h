@@ -136,6 +136,10 @@ bool aur_light_choose(const aur_scene *scene, const aur_light_reference *referen
 float aur_light_choice_probability(const aur_scene *scene, const aur_light_reference *reference,
                                    const aur_surface *surface);
 /* Whether u selects a light outside of the tree, for any reference. */
+/* Samples the chosen light by the numbers that aur_light_choose left in u. */
+bool aur_light_sample_chosen(const aur_scene *scene, const aur_chosen_light *chosen,
+                             const aur_light_reference *reference, const float u[3],
+                             aur_light_sample *sample);
 bool aur_light_choice_is(const aur_scene *scene, const aur_emitter *emitter, const float u[3]);
 
 /* Passes the shapes to Embree (render/trace/accel.c). */

@@ -348,8 +348,9 @@ static void lanes_are_single_samples(void **state) {
             v[k] = unit(i, 8);
         }
         const aur_light_references references = {&positions, &normals};
-        aur_light_lanes lanes;
+        aur_light_lanes lanes, fast;
         aur_light_lanes_each(scene, UINT16_MAX, &references, choice, u, v, &lanes);
+        aur_light_lanes_direct(scene, UINT16_MAX, &references, choice, u, v, &fast);
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
             const aur_light_reference at = {aur_lane_vector(&positions, k), aur_lane_vector(&normals, k)};
             aur_light_sample one;
@@ -359,7 +360,11 @@ static void lanes_are_single_samples(void **state) {
             assert_true(lane.pdf == one.pdf);
             drawn += one.pdf > 0.0f;
             from_sky += one.pdf > 0.0f && one.environment;
+            assert_near(fast.pdf[k], one.pdf, 1e-4 * (double)one.pdf);
             if (one.pdf > 0.0f) {
+                const aur_vector position = aur_lane_vector(&fast.position, k);
+                assert_near(aur_vector_length(aur_vector_subtract(position, one.position)), 0.0,
+                            1e-5 * (1.0 + (double)aur_vector_length(one.position)));
                 assert_memory_equal(&lane.position, &one.position, sizeof one.position);
                 assert_memory_equal(&lane.radiance, &one.radiance, sizeof one.radiance);
             }

@@ -190,7 +190,6 @@ static void lanes_are_the_single_samples(void **state) {
                                        .normal = {0.0f, 1.0f, 0.0f},
                                        .radiance = {3.0f, 2.0f, 1.0f},
                                        .area = 2.0f,
-                                       .probability = 0.25f,
                                        .rounding = 1e-6f};
     aur_lane_vectors position, normal;
     aur_lane_numbers u, v;
@@ -220,7 +219,7 @@ static void lanes_are_the_single_samples(void **state) {
         const double squared = (double)aur_vector_dot(way, way);
         const double pdf =
             (double)density * (seen.by_area ? squared * sqrt(squared) / (2.0 * (double)way.y) : 1.0);
-        assert_relative(drawn.pdf[k], k == 3 ? 0.0 : 0.25 * pdf, 1e-5);
+        assert_relative(drawn.pdf[k], k == 3 ? 0.0 : pdf, 1e-5);
         assert_true(drawn.radiance.x[k] == 3.0f && drawn.radiance.z[k] == 1.0f && drawn.reachable[k] == 1.0f);
         solid += !seen.by_area && k != 3;
         flat += seen.by_area;

@@ -247,9 +247,7 @@ static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
-    aur_rectangle_light all = light->rectangle;
-    all.probability = emitter->probability;
-    light->kernels->lanes(&all, references, u, v, drawn);
+    light->kernels->lanes(&light->rectangle, references, u, v, drawn);
     return true;
 }
 

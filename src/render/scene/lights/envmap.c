@@ -242,7 +242,7 @@ static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
         aur_lane_set(&drawn->position, k, far.position);
         aur_lane_set(&drawn->direction, k, direction);
         aur_lane_set(&drawn->radiance, k, light_of_lane(self, &positions, k, &pdf));
-        drawn->pdf[k] = pdf * emitter->probability;
+        drawn->pdf[k] = pdf;
     }
     return true;
 }

@@ -52,7 +52,7 @@ typedef struct aur_rectangle_light {
     aur_rectangle rectangle;
     aur_vector normal; /* normal of the emitting side */
     aur_vector radiance;
-    float area, probability;
+    float area;
     float rounding; /* aur_triangle_rounding */
 } aur_rectangle_light;
 

@@ -183,7 +183,7 @@ static void rectangle_lanes(const aur_rectangle_light *given, const aur_light_re
         const float height = aur_vector_dot(way, light.normal), squared = aur_vector_dot(way, way);
         const float by_area = squared * sqrtf(squared) / (height * light.area);
         const float by_angle = 1.0f / angle[k];
-        const float pdf = light.probability * density[k] * (seen ? by_angle : by_area);
+        const float pdf = density[k] * (seen ? by_angle : by_area);
         aur_lane_set(&drawn->position, k, aur_surface_target(from, point, light.normal, light.rounding));
         aur_lane_set(&drawn->radiance, k, light.radiance);
         drawn->pdf[k] = height > 0.0f ? pdf : 0.0f;
