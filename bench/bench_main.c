@@ -32,6 +32,7 @@ extern const bench bench_patterns;
 extern const bench bench_points_sphere;
 extern const bench bench_points_square;
 extern const bench bench_race;
+extern const bench bench_race_limits;
 extern const bench bench_radiosity;
 extern const bench bench_relaxed;
 extern const bench bench_scene;
@@ -59,6 +60,7 @@ static const bench *const benches[] = {
     &bench_points_sphere,
     &bench_points_square,
     &bench_race,
+    &bench_race_limits,
     &bench_radiosity,
     &bench_relaxed,
     &bench_scene,

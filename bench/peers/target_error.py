@@ -46,7 +46,7 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
     with open(path, encoding="utf-8") as file:
         text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', file.read())
     path_traced = '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>'
-    text = re.sub(r"<integrator.*</integrator>", path_traced, text, flags=re.S)
+    text = re.sub(r"<integrator[^>]*/>|<integrator.*</integrator>", "", text, flags=re.S).replace("</scene>", path_traced + "</scene>")
     with tempfile.NamedTemporaryFile("w", suffix=".xml", dir=os.path.dirname(os.path.abspath(path))) as copy:
         copy.write(text)
         copy.flush()
@@ -114,7 +114,7 @@ def main():
         if child.returncode != 0:
             print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | |", flush=True)
             continue
-        peer = json.loads(child.stdout.strip().splitlines()[-1])
+        peer = json.loads([line for line in child.stdout.splitlines() if line.startswith('{"seconds"')][-1])  # Mitsuba warns on stdout
         for error, theirs in zip(given.errors, peer["seconds"]):
             seconds, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
             if seconds is None:

@@ -10,18 +10,10 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-enum {
-    PIXELS = AUR_BLOCK_PIXELS,
-    FIRST_BLOCKS = 18, /* 288 pixels */
-    MAP_PHOTONS = 50000,
-    RESAMPLINGS = 300
-};
-/* The largest work of the race, relative to the work of the best candidate; and that of the first blocks of
- * all candidates. */
-static const double PART = 0.05, FIRST_PART = 0.1;
-/* A candidate is dropped if it is worse than the best in this fraction of the bootstrap resamplings of the
- * blocks. */
-static const double CONFIDENCE = 0.95;
+enum { PIXELS = AUR_BLOCK_PIXELS, MAP_PHOTONS = 50000, RESAMPLINGS = 300 };
+/* Flat around these values in rooms outside of the tree (aureole-bench race-limits). */
+static const aur_race_limits default_limits = {
+    .first_blocks = 18, .first_part = 0.1, .part = 0.05, .confidence = 0.95};
 /* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
 /* The shortest time limit for which a race is worthwhile: it takes tenths of a second. */
@@ -246,7 +238,7 @@ static size_t drop(aur_race *race, size_t blocks, size_t best) {
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
         if (!is_measured(&race->entries[i], blocks))
             continue;
-        if (i != best && (double)worse[i] >= CONFIDENCE * RESAMPLINGS)
+        if (i != best && (double)worse[i] >= race->limits->confidence * RESAMPLINGS)
             set_reason(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
         left += !race->entries[i].out;
     }
@@ -286,7 +278,7 @@ static double first_rung(const aur_race *race, size_t row) {
  * image's. */
 static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
     static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS};
-    const double most = FIRST_PART * whole_work(race, AUR_RACE_MIDDLE);
+    const double most = race->limits->first_part * whole_work(race, AUR_RACE_MIDDLE);
     /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
     const bool path = 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
     aur_result result = AUR_OK;
@@ -311,7 +303,7 @@ static aur_result run_rungs(aur_race *race, size_t blocks, aur_error *error) {
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
             next += race->entries[i].out ? 0.0 : race->entries[i].rays;
         if (result != AUR_OK || left <= 1 || blocks == race->blocks.count ||
-            spent_work(race) + next > PART * whole_work(race, best))
+            spent_work(race) + next > race->limits->part * whole_work(race, best))
             return result;
         blocks = 2 * blocks < race->blocks.count ? 2 * blocks : race->blocks.count;
         for (size_t i = 0; i < AUR_RACE_ROWS && result == AUR_OK; ++i)
@@ -351,7 +343,8 @@ static void sort(aur_race *race) {
 
 /* The middle row first, by which the work of the others is estimated. */
 static aur_result run(aur_race *race, aur_error *error) {
-    const size_t blocks = race->blocks.count < FIRST_BLOCKS ? race->blocks.count : FIRST_BLOCKS;
+    const size_t first = race->limits->first_blocks;
+    const size_t blocks = race->blocks.count < first ? race->blocks.count : first;
     aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     aur_error refused = {0};
     if ((race->budget > 0.0 && race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->replica_count)) ||
@@ -381,6 +374,7 @@ static aur_result run(aur_race *race, aur_error *error) {
 }
 
 aur_result aur_race_run(aur_race *race, aur_error *error) {
+    race->limits = race->limits != NULL ? race->limits : &default_limits;
     aur_result result = aur_blocks_create(race->width, race->height, &race->blocks, error);
     if (result == AUR_OK)
         result = run(race, error);

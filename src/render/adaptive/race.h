@@ -38,6 +38,14 @@ typedef struct aur_race_entry {
     char reason[96]; /* why it was taken or dropped */
 } aur_race_entry;
 
+/* How much is compared. */
+typedef struct aur_race_limits {
+    size_t first_blocks; /* that all candidates render at first */
+    double first_part; /* the largest work of these blocks, relative to the best candidate's for the image */
+    double part;       /* and that of the whole race */
+    double confidence; /* a candidate is dropped if it is worse in this part of the resamplings */
+} aur_race_limits;
+
 typedef struct aur_race {
     aur_renderer *renderer;
     const aur_render_options *options; /* of the image, with its size */
@@ -49,6 +57,7 @@ typedef struct aur_race {
     double budget;  /* rays of the request; 0: none */
     double seconds; /* of the request; 0: none */
     const atomic_bool *cancelled;
+    const aur_race_limits *limits; /* NULL: the default ones */
     aur_blocks blocks;
     aur_race_entry entries[AUR_RACE_ROWS];
     size_t order[AUR_RACE_ROWS]; /* measured candidates, best first; always includes path */
