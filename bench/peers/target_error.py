@@ -114,7 +114,7 @@ def main():
         if child.returncode != 0:
             print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | |", flush=True)
             continue
-        peer = json.loads([line for line in child.stdout.splitlines() if line.startswith('{"seconds"')][-1])  # Mitsuba warns on stdout
+        peer = json.loads(re.search(r'{"seconds".*', child.stdout)[0])  # after Mitsuba's warnings
         for error, theirs in zip(given.errors, peer["seconds"]):
             seconds, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
             if seconds is None:
