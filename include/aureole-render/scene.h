@@ -139,6 +139,9 @@ typedef struct aur_scene_options {
     /* Limit of bitmap textures in memory, in bytes, at least 4 MiB; the rest is in an unnamed file in TMPDIR
      * or /var/tmp. 0: all in memory. The result does not depend on it. */
     size_t texture_memory;
+    /* Only light sources of this material of Radiance's files emit; the others of such files are black. NULL:
+     * all. An error (NAME) if there is none. */
+    const char *light_modifier;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)

@@ -115,6 +115,10 @@ static aur_scene *scenes(void) {
     aur_scene_options_init(&options, NULL);
     refuse(aur_scene_load("no such folder/calls.xml", &options, &scene, &error), AUR_ERROR_OPEN, &error);
     refuse(aur_scene_load_memory("calls", 3, "<a>", &options, &scene, &error), AUR_ERROR_FORMAT, &error);
+    options.light_modifier = "lamp";
+    refuse(aur_scene_load_memory("calls", sizeof scene_text - 1, scene_text, &options, &scene, &error),
+           AUR_ERROR_NAME, &error);
+    options.light_modifier = NULL;
     accept(aur_scene_load_memory("calls", sizeof scene_text - 1, scene_text, &options, &scene, &error),
            &error);
     aur_scene_description d = {.size = sizeof d};
@@ -320,7 +324,8 @@ static void years(const aur_scene *scene) {
     options.evaluated = evaluated;
     accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, NULL, &error),
            &error);
-    require(hourly[0] > 0.0 && hourly[1] == 0.0 && fabs(result.value[AUR_DAYLIGHT_ANNUAL] / hourly[0] - 1.0) < 1e-9,
+    require(hourly[0] > 0.0 && hourly[1] == 0.0 &&
+                fabs(result.value[AUR_DAYLIGHT_ANNUAL] / hourly[0] - 1.0) < 1e-9,
             "one evaluated hour");
     aur_tracker_options tracker = {.size = sizeof tracker};
     aur_tracker_options_init(&tracker, NULL);

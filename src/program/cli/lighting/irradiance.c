@@ -20,6 +20,7 @@ typedef struct irradiance_command {
     illuminance illuminance;
     cli_daylight daylight;
     cli_bifacial bifacial;
+    cli_contributions contributions;
     cli_sky sky;
     cli_definitions definitions;
     cli_common common;
@@ -249,7 +250,8 @@ static bool check(const cli_call *call) {
     if (conflict != NULL)
         cli_bad_usage("%s", conflict);
     return conflict == NULL && cli_daylight_check(call) && cli_sky_check(call) &&
-           cli_bifacial_check(call, &given->bifacial, given->format);
+           cli_bifacial_check(call, &given->bifacial, given->format) &&
+           cli_contributions_check(call, &given->contributions, given->format);
 }
 
 /* Options of the scene loader. */
@@ -395,7 +397,11 @@ static int run(const cli_call *call) {
         result = place_grid(given, scene, &sensors, &error);
     if (result == AUR_OK)
         warn_of_positions(given, scene, aur_sensors_get_view(sensors));
-    if (result == AUR_OK)
+    if (result == AUR_OK && given->contributions.count > 0)
+        result = cli_contributions_run(&given->contributions, call->operands[0], &load, &given->estimate,
+                                       given->columns.luminance, aur_sensors_get_view(sensors), given->output,
+                                       given->format, &error);
+    else if (result == AUR_OK)
         result =
             given->daylight.weather != NULL || given->daylight.coefficients
                 ? estimate_year(given, scene, &load, call->operands[0], aur_sensors_get_view(sensors), &error)
@@ -416,6 +422,7 @@ const cli_command cli_command_irradiance = {
     .groups = {{options, 0},
                {cli_sky_options, offsetof(irradiance_command, sky)},
                {cli_daylight_options, offsetof(irradiance_command, daylight)},
+               {cli_contributions_options, offsetof(irradiance_command, contributions)},
                {cli_bifacial_options, offsetof(irradiance_command, bifacial)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},

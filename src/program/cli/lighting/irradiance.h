@@ -49,6 +49,24 @@ aur_result cli_bifacial_run(cli_bifacial *given, const cli_bifacial_run_options 
                             const aur_sensors_view *sensors, const char *output, const char *format,
                             aur_error *error);
 
+enum { CLI_MODIFIER_LIMIT = 64 };
+
+/* Light sources to report separately (--modifier). */
+typedef struct cli_contributions {
+    size_t count;
+    const char *names[CLI_MODIFIER_LIMIT];
+} cli_contributions;
+extern const cli_option cli_contributions_options[]; /* of a cli_contributions */
+
+/* False, with a message, if options conflict. */
+bool cli_contributions_check(const cli_call *call, const cli_contributions *given, const char *format);
+/* Estimates the irradiance by the sources with each name and writes it to `output`; `lux`: the luminance
+ * instead of r, g, b. */
+aur_result cli_contributions_run(const cli_contributions *given, const char *path,
+                                 const aur_scene_options *load, const aur_irradiance_options *estimate,
+                                 bool lux, const aur_sensors_view *sensors, const char *output,
+                                 const char *format, aur_error *error);
+
 enum { CLI_LUMINAIRE_LIMIT = 256 };
 
 /* The sky at one time (--sky), and luminaires (--lamp). */

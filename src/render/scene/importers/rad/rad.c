@@ -259,7 +259,15 @@ static aur_result read_modifier(aur_rad *self, const aur_rad_primitive *item) {
 static aur_result read_surface(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material;
     const aur_rad_word override = self->pose.modifier;
-    const aur_result result = find_modifier(self, override.length > 0 ? override : item->modifier, &material);
+    const aur_rad_word name = override.length > 0 ? override : item->modifier;
+    const char *const light = self->scene->light;
+    const aur_result result = find_modifier(self, name, &material);
+    if (result == AUR_OK && material.emits && light != NULL) {
+        const bool chosen = aur_rad_is_word(name, light);
+        self->scene->has_light = self->scene->has_light || chosen;
+        for (size_t i = 0; i < 3 && !chosen; ++i)
+            material.radiance[i] = 0.0;
+    }
     if (result != AUR_OK || (material.nothing && strcmp(item->row->name, "instance") != 0))
         return result;
     return material.luminaire != NULL ? aur_rad_add_luminaire(self, item, &material)

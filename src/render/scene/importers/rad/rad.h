@@ -19,6 +19,8 @@ typedef struct aur_rad_scene {
     aur_rad_material *materials;
     const aur_rad_pose *pose; /* pose of the next file opened; NULL: identity */
     aur_xml_node *sky;        /* the last sky; a second source may be its ground */
+    const char *light;        /* only sources of this material emit; NULL: all */
+    bool has_light;           /* there is such a source */
     bool diffuse;             /* replace unsupported materials by their diffuse part */
     size_t diffuse_count;     /* number of replaced materials */
     const aur_warnings *warnings;

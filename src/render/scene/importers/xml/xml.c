@@ -511,6 +511,7 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
                       .variables = {.arena = &document->tree.arena},
                       .rad = {.arena = &document->tree.arena,
                               .diffuse = options->diffuse,
+                              .light = options->light_modifier,
                               .warnings = &options->warnings,
                               .left_out = &document->left_out,
                               .find = find_file,
@@ -531,6 +532,10 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         result = replace_camera(&shared);
     if (result == AUR_OK)
         result = add_lights(&shared, path);
+    if (result == AUR_OK && options->light_modifier != NULL && !shared.rad.has_light)
+        result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_NAME,
+                             "no light source of the scene's Radiance files has the material '%s'",
+                             options->light_modifier);
     if (result == AUR_OK)
         result = aur_xml_settle_ids(document, error);
     if (result == AUR_OK)
