@@ -48,7 +48,10 @@ def _values(user: Any, arguments: tuple, values: Any, count: int) -> int:
     """The user's function of `arguments` into values[count]."""
     call = ffi.from_handle(user)
     try:
-        np.frombuffer(ffi.buffer(values, 8 * count))[:] = call.function(*arguments)
+        made = np.asarray(call.function(*arguments))
+        if made.dtype.kind not in "biufO":  # NumPy would make numbers of strings, dates and records
+            raise TypeError(f"the function must return real numbers, not {made.dtype}")
+        np.frombuffer(ffi.buffer(values, 8 * count))[:] = made
     except BaseException as error:
         call.raised = error
         return CANCELLED

@@ -47,6 +47,8 @@ def _values(function: Callable[..., Any], *arguments: Array) -> Array:
     if returned is None or np.ma.is_masked(returned):
         raise ArgumentError("the function must return numbers, not " + ("None" if returned is None else "masked values"))
     made = np.asarray(returned)
+    if made.dtype.kind not in "biufcO":  # NumPy would make numbers of strings, dates and records
+        raise TypeError(f"the function must return numbers, not {made.dtype}")
     made = made.astype(np.complex128 if np.iscomplexobj(made) else np.float64)  # a copy: it may be a view of them
     if made.ndim == 0:
         made = np.full(count, made[()])
@@ -109,6 +111,8 @@ def _integrate(
     core.initialize(options, lib.aur_integrate_options_init, core.value("domain", "cube" if region else domain))
     core.fill(options, region=region, dimension=dimension, **fields)
     if axis is not None:
+        if np.shape(axis) != (2,):
+            raise ArgumentError(f"an axis is (a, b), not {axis!r}")
         core.fill(options, has_axis=True, axis_from=axis[0], axis_to=axis[1])
     kept, made = [name and ffi.new("char[]", encode(name))], ffi.new("aur_integrate_peak[]", len(peaks))
     for row, peak in zip(made, peaks):
@@ -166,7 +170,8 @@ def symmetric_rule(n: int, symmetry: str) -> tuple[Array, Array]:
     """
     group = ffi.new("aur_point_group *")
     core.call(lib.aur_point_group_from_name, encode(symmetry), group)
-    if operator.index(n) < 1:
+    n = operator.index(n)
+    if n < 1:
         raise ArgumentError(f"a rule must have 1 point or more, not {n}")
     xyz, weights, count = np.empty((n, 3)), np.empty(n), ffi.new("size_t *")
     core.call(lib.aur_symmetric_rule, group, n, 3 * n, core.output(xyz), core.output(weights), count)
@@ -269,7 +274,8 @@ def average(
     >>> abs(found.value - 0.50434356) < 3 * found.error + 1e-8
     True
     """
-    if operator.index(n) < 1:
+    n, copies = operator.index(n), operator.index(copies)  # NumPy's integers overflow
+    if n < 1:
         raise ArgumentError(f"a set must have 1 point or more, not {n}")
     if symmetry is not None:
         if domain != "sphere" or set is not None or cap or axis is not None:

@@ -588,14 +588,15 @@ class Figures(unittest.TestCase):
         with self.assertRaises(aureole.UnsupportedError):
             aureole.integrate(prism, domain="rotations", symmetry="432")
         for bad, error in ((lambda u: 1 / 0, ZeroDivisionError), (lambda u: np.ones(3), aureole.ArgumentError),
-                           (lambda u: u[:, 0] * np.nan, aureole.ArgumentError), (lambda u: "x", ValueError)):
+                           (lambda u: u[:, 0] * np.nan, aureole.ArgumentError), (lambda u: "x", TypeError)):
             with self.assertRaises(error):
                 aureole.integrate(bad, symmetry="Oh")
 
     def test_bad_integrands(self):
         masked = np.ma.masked_array(np.ones(1024), np.arange(1024) == 3)
         for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}, lambda u: None,
-                    lambda u: np.ones((len(u), 0)), lambda u: masked[: len(u)]):  # fmt: skip
+                    lambda u: np.ones((len(u), 0)), lambda u: masked[: len(u)], lambda u: ["1"] * len(u),
+                    lambda u: np.full(len(u), np.datetime64("2020")), lambda u: np.zeros(len(u), [("a", float)])):  # fmt: skip
             with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
                 aureole.integrate(bad)
             with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
@@ -603,6 +604,13 @@ class Figures(unittest.TestCase):
         for options in ({"tol": 0}, {"peaks": [1]}, {"peaks": [((0, 0, 1),)]}, {"domain": "ball", "dimension": 2}, {"resolution": 1.5}):
             with self.assertRaises(aureole.ArgumentError):
                 aureole.integrate(lambda u: u[:, 2], **options)
+        for bad in (lambda u, w: "1", lambda u, w: 1j):
+            with self.assertRaisesRegex(TypeError, "must return real numbers"):
+                aureole.estimate(bad, 2)
+        for axis in ((0,), 5, (0, 1, 2)):
+            with self.assertRaisesRegex(aureole.ArgumentError, "an axis is"):
+                aureole.integrate(lambda u, r: r, axis=axis)
+        self.assertEqual(aureole.average(lambda u: u[:, 2], np.int8(10)).evaluations, 160)
         with self.assertRaisesRegex(aureole.ArgumentError, "n // 4 = 0 points"):
             aureole.average(lambda u: u[:, 2], 3, symmetry="D2h")
         constant = aureole.average(lambda u: 2.0, 100, symmetry="Oh")
