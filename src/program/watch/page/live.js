@@ -40,7 +40,7 @@ class Live {
     this.share.value = ended ? 1 : share;
     if (this.viewer === undefined) // there is no picture yet
       this.figure.textContent = ended || `${what} ...`;
-    this.say([ended || `${what}: ${(100 * share).toFixed(0)} %;`, known].filter(text => text !== '').join(' '));
+    this.say([ended || `${what}: ${(100 * share).toFixed(0)} %`, known].filter(text => text !== '').join(ended ? ' ' : '; '));
     document.title = ended || `${(100 * share).toFixed(0)} % ${document.querySelector('h1').textContent}`;
   }
   // Asks for the layers that are seen, or for all, and draws them.
