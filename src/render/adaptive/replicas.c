@@ -139,34 +139,23 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t co
                          .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
 }
 
-/* Adds to each replica's variance of one sample of a pixel the estimate from the other replicas' deviations
- * of a channel from their mean. Their sum of squares is the one about the mean of all, without the replica's
- * part, and has count - 2 degrees. `shares` are one over the replicas' samples. */
-static void add_variances(const aur_replicas *replicas, size_t pixel, const double *shares,
-                          const double *deviations, double *variances) {
+/* Each replica's variance of one sample of a pixel, by the deviations of the other replicas from their mean.
+ * Their sum of squares is the one about the mean of all, without the replica's part, and has count - 2
+ * degrees. */
+static void find_variances(const aur_replicas *replicas, size_t pixel, const aur_gram *gram,
+                           double *variances) {
     const double others = (double)(replicas->count - 1);
-    double squares = 0.0;
-    for (size_t r = 0; r < replicas->count; ++r)
-        squares += deviations[r] * deviations[r];
-    for (size_t r = 0; r < replicas->count; ++r) {
-        const double share = deviations[r] * deviations[r] * (others + 1.0) / others;
-        variances[r * replicas->pixel_count + pixel] +=
-            fmax(squares - share, 0.0) * others / ((others - 1.0) * (shares[replicas->count] - shares[r]));
-    }
-}
-
-static void measure_pixel(const aur_replicas *replicas, size_t pixel, double d[3][AUR_REPLICAS_MAX],
-                          double *variances) {
-    double shares[AUR_REPLICAS_MAX + 1];
-    shares[replicas->count] = 0.0;
+    double shares[AUR_REPLICAS_MAX], all = 0.0, squares = 0.0; /* one over the replicas' samples */
     for (size_t r = 0; r < replicas->count; ++r) {
         const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
         shares[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
-        shares[replicas->count] += shares[r];
-        variances[r * replicas->pixel_count + pixel] = 0.0;
+        all += shares[r];
+        squares += gram->products[r][r];
     }
-    for (size_t channel = 0; channel < 3; ++channel)
-        add_variances(replicas, pixel, shares, d[channel], variances);
+    for (size_t r = 0; r < replicas->count; ++r)
+        variances[r * replicas->pixel_count + pixel] =
+            fmax(squares - gram->products[r][r] * (others + 1.0) / others, 0.0) * others /
+            ((others - 1.0) * (all - shares[r]));
 }
 
 static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
@@ -194,7 +183,7 @@ static void measure_block(const aur_replicas *replicas, aur_weighing weighing, p
             const aur_gram of_pixel = gram_of(replicas->count, d);
             const double spread = aur_deviations_add_pixel(&measure->deviations, &of_pixel);
             if (pixels != NULL) {
-                measure_pixel(replicas, pixel, d, pixels->variances);
+                find_variances(replicas, pixel, &of_pixel, pixels->variances);
                 pixels->spreads[pixel] = spread;
             }
             for (size_t r = 0; r < replicas->count; ++r)
@@ -208,8 +197,9 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
                           const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
-    *measure = (aur_replica_measure){.deviations.overlap =
-                                         film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0};
+    *measure = (aur_replica_measure){
+        .deviations = {.overlap = film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0,
+                       .linear = weighing.measure != AUR_ERROR_MEASURE_DISPLAY}};
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column)
             measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row), measure, pixels);

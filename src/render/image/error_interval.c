@@ -84,7 +84,8 @@ aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count,
     aur_error_interval interval = {.degrees = 1.0};
     if (!(sum->trace > 0.0))
         return interval;
-    const double spread = fmax(sum->blocks, sum->overlap * sum->pixels);
+    const double pixels = sum->overlap * sum->pixels;
+    const double spread = fmax(sum->blocks, sum->linear ? 0.5 * (sum->blocks + pixels) : pixels);
     const double square = (sum->trace * sum->trace - 2.0 * n * spread) / (n * n);
     interval.degrees = fmin(fmax(square / spread, 1.0), (double)values);
     const double square_error = sum->trace / (n * (double)count * (double)values);

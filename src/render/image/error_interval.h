@@ -2,6 +2,7 @@
  * from the spread between the images. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { AUR_REPLICAS_MAX = 16 };
@@ -14,7 +15,7 @@ typedef struct aur_gram {
 } aur_gram;
 
 /* Sums over the Gram matrices of an image. C is the covariance of one replica's values. Initialise with zeros
- * and `overlap`. */
+ * `overlap` and `linear`. */
 typedef struct aur_deviations {
     double trace;         /* the sum of tr W; expectation (count - 1) tr C */
     double blocks;        /* the sum of the blocks' estimates of tr C^2 */
@@ -22,6 +23,7 @@ typedef struct aur_deviations {
     double pixels;        /* the sum of the pixels' estimates of tr C^2 */
     double square_pixels; /* the sum of their squares */
     double overlap;       /* tr C^2 over the pixels' part, where they share samples whose noise is white */
+    bool linear;          /* the error measure is: deviations are those of independent images */
 } aur_deviations;
 
 /* Let Y be the deviations from the expectation. The error of the mean and its estimate from the replicas'
@@ -57,9 +59,11 @@ typedef struct aur_error_interval {
 
 /* The error of the mean of `count` >= 3 images of `values` values, and its interval of probability
  * `confidence` in (0,1). It is the error of this mean, not the expected error over other seeds: the two vary
- * independently, which widens the interval by a factor of 1 + 1/(count - 1) in variance. tr C^2 is the larger
- * of the blocks' and of the pixels' times their overlap. The interval is computed
- * on the scale of cube roots, where sums of squares with (tr C)^2 / tr C^2 degrees (Satterthwaite 1946) are
- * nearly normal (Wilson and Hilferty 1931), with Student's quantile for the uncertainty of tr C^2. */
+ * independently, which widens the interval by a factor of 1 + 1/(count - 1) in variance. tr C^2 is
+ * estimated by pixels, with their overlap, which rare values make too high. If a measure is linear it is the
+ * mean of that and of the blocks' estimate, which rare values make too low. It is at least the blocks'. The
+ * interval is computed on the scale of cube roots, where sums of squares with (tr C)^2 / tr C^2 degrees
+ * (Satterthwaite 1946) are nearly normal (Wilson and Hilferty 1931), with Student's quantile for the
+ * uncertainty of tr C^2. */
 aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count, size_t values,
                                         double confidence);

@@ -59,7 +59,7 @@ typedef double (*value_function)(size_t i, uint64_t candidate, uint64_t index);
 static coverage cover(size_t count, value_function draw, bool pooled) {
     coverage c = {0};
     for (size_t candidate = 0; candidate < TRIALS; ++candidate) {
-        aur_deviations sum = {.overlap = 1.0}, ignored = {.overlap = 1.0};
+        aur_deviations sum = {.overlap = 1.0, .linear = true}, ignored = {.overlap = 1.0};
         double square = 0.0;
         aur_pixel_spread pixels[VALUES];
         for (size_t block = 0; block < VALUES / BLOCK_VALUES; ++block) {
@@ -125,7 +125,7 @@ static void test_holds_what_it_says(void **state) {
     static const struct {
         size_t count;
         double even, uneven, rare;
-    } rows[] = {{3, 0.9569, 0.9439, 1.0}, {4, 0.9572, 0.9587, 0.9999}, {8, 0.9505, 0.9608, 0.9998}};
+    } rows[] = {{3, 0.9565, 0.9433, 1.0}, {4, 0.9569, 0.9529, 0.9995}, {8, 0.9504, 0.9597, 0.9969}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         const size_t count = rows[k].count;
         const coverage even = cover(count, same, false), some = cover(count, uneven, false),
@@ -153,8 +153,8 @@ static void test_of_one_value(void **state) {
     const coverage even = cover(4, same, true);
     print_message("one value: %zu inside, %zu above; with the round before %zu, %zu; even %zu\n", now.inside,
                   now.above, all.inside, all.above, even.inside);
-    check_share(now.inside, 0.974);
-    check_share(all.inside, 0.990);
+    check_share(now.inside, 0.969);
+    check_share(all.inside, 0.986);
     check_share(even.inside, 0.957);
 }
 
@@ -194,7 +194,7 @@ static size_t held_in_filtered_noise(double overlap) {
     static double values[COUNT][SIDE * SIDE];
     size_t held = 0;
     for (size_t trial = 0; trial < TRIALS; ++trial) {
-        aur_deviations sum = {.overlap = overlap};
+        aur_deviations sum = {.overlap = overlap, .linear = true};
         double square = 0.0;
         for (size_t r = 0; r < COUNT; ++r)
             filter_noise(trial * COUNT + r, values[r]);
@@ -227,19 +227,27 @@ static void test_holds_where_pixels_share_samples(void **state) {
     assert_in_range(held, 0.93 * TRIALS - 57, 0.97 * TRIALS + 38);
 }
 
-/* Without overlap, or where the blocks show more covariance. */
+/* Of pixels or, if a measure is linear, half of it and half of the blocks'; or of blocks, where they show
+ * more covariance. */
 static void test_takes_the_larger_spread(void **state) {
     (void)state;
-    const aur_deviations alone = {.trace = 300.0, .overlap = 1.0, .blocks = 40.0},
+    const aur_deviations blocks = {.trace = 300.0, .overlap = 1.0, .blocks = 40.0},
                          larger = {.trace = 300.0, .overlap = 1.0, .blocks = 160.0},
-                         shared = {.trace = 300.0, .overlap = 4.0, .blocks = 40.0, .pixels = 40.0},
+                         pixels = {.trace = 300.0, .overlap = 4.0, .blocks = 40.0, .pixels = 40.0},
+                         linear = {.trace = 300.0,
+                                   .overlap = 4.0,
+                                   .blocks = 40.0,
+                                   .pixels = 70.0,
+                                   .linear = true},
                          less = {.trace = 300.0, .overlap = 4.0, .blocks = 40.0, .pixels = 5.0};
-    const aur_error_interval narrow = aur_replica_interval(&alone, 4, VALUES, 0.95),
+    const aur_error_interval narrow = aur_replica_interval(&blocks, 4, VALUES, 0.95),
                              wide = aur_replica_interval(&larger, 4, VALUES, 0.95),
-                             seen = aur_replica_interval(&shared, 4, VALUES, 0.95),
+                             of_pixels = aur_replica_interval(&pixels, 4, VALUES, 0.95),
+                             of_both = aur_replica_interval(&linear, 4, VALUES, 0.95),
                              same = aur_replica_interval(&less, 4, VALUES, 0.95);
-    assert_memory_equal(&seen, &wide, sizeof seen);
-    assert_true(seen.degrees < narrow.degrees && seen.low < narrow.low && seen.high > narrow.high);
+    assert_memory_equal(&of_pixels, &wide, sizeof wide);
+    assert_memory_equal(&of_both, &wide, sizeof wide);
+    assert_true(wide.degrees < narrow.degrees && wide.low < narrow.low && wide.high > narrow.high);
     assert_memory_equal(&same, &narrow, sizeof same);
 }
 
