@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
@@ -95,20 +93,19 @@ def daylight(
                "offsets": [ffi.offsetof("aur_daylight", name) for name in ("value", "error")], "itemsize": ffi.sizeof("aur_daylight")},
     )  # fmt: skip
     summary = library.options("daylight_summary")
-    with tempfile.TemporaryDirectory() as folder, _Call(progress) as call:
-        series = os.path.join(folder, "hours.npy")
+    hours = np.zeros((len(where), 2, lib.aur_weather_get_view(known).count))
+    with _Call(progress) as call:
         options = library.options(
             "daylight_options", set=texts(set), directions=directions, max_depth=max_depth, subdivision=patches,
             no_ground=ground_albedo == 0, ground_albedo=ground_albedo, efficacy=_EFFICACIES[efficacy],
             threshold=threshold, useful=tuple(useful), weekdays=weekdays, up=tuple(np.asarray(up, float)),
-            north=tuple(np.asarray(north, float)), series=texts(series), seed=seed, threads=threads,
+            north=tuple(np.asarray(north, float)), hourly=library.output(hours), seed=seed, threads=threads,
         )  # fmt: skip
         _hours = _schedule(library, schedule, options)
         library.call(
             lib.aur_daylight_estimate, loaded._scene, view, lib.aur_weather_get_view(known), call.attach(options),
             found.dtype.itemsize, library.output(found, "aur_daylight"), summary,
         )  # fmt: skip
-        hours = np.load(series)
     return Daylight(
         *(found["value"][:, i] for i in range(8)),
         {name: found["error"][:, i] for i, name in enumerate(_MEASURES)}, hours[:, 0], hours[:, 1], summary.spatial_autonomy,

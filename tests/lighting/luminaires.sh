@@ -88,13 +88,15 @@ spot bulb $disk $focus .5 .7 -2 0
 spot mirror 8e-6 $focus -.5 .7 -2 1
 printf 'void spotlight s 0 0 7 1 1 1 40 0 0 0\ns ring r 0 0 8 0 0 3 0 0 -1 0 .001\n' >bad.rad
 printf 'void spotlight s 0 0 7 1 1 1 40 0 0 1\ns ring r 0 0 8 0 0 3 0 0 -1 0 .001\n' >behind.rad
+printf 'void spotlight s 0 0 7 1 1 1 40 0 0 -1\ns cone r 0 0 8 0 0 3 0 0 2 1 0\n' >cone.rad
+refused "cone.rad:2: cone: a spotlight on a rectangle, a ring or a sphere expected" irradiance cone.rad --sensors floor.pts
 refused "behind.rad:2: the cone of the spotlight is behind its surface" irradiance behind.rad --sensors floor.pts
 # Luminaires are in metres: a room of 6 mm and one of 6 km are none.
 for size in .001 1000; do
   printf 'void plastic black 0 0 5 0 0 0 0 0\n!genbox black b 6 4 3 | xform -s %s\n' $size >sized.rad
   "$aureole" irradiance sized.rad --sensors one.pts --lamp lamp.ies@0,0,-1 -n 16 2>&1 | grep -q "units wide and luminaires are in metres" || fail "a room of 6 x $size m"
 done
-refused "bad.rad:1: spotlight: R G B of 0 or more, an angle" irradiance bad.rad --sensors floor.pts
+refused "bad.rad:1: spotlight: R G B of 0 or more, an angle from" irradiance bad.rad --sensors floor.pts
 # Radiance's ies2rad writes the same lamp as a pattern on a light: a rectangle, turned and moved; a disk; a ball.
 printf 'IESNA:LM-63-1995\nTILT=NONE\n1 -1 1 4 2 1 2 0.6 0.3 0 1 1 9\n0 30 60 90\n0 90\n895 537 179 0\n895 358 89.5 0\n' >rectangle.ies
 printf '2\n0 90 2\n0 0 4\n 0 30 60\n 90\n 5 3 1 0 5 2 .5 0\n' >rectangle.dat

@@ -125,6 +125,8 @@ for bad in 'gendaylit 6 21 12 -W 700 100 -O 1' 'gendaylit -ang 40 20 -W 700 100'
   printf '!%s\n' "$bad" >bad.rad
   refused "bad.rad:1: ${bad%% *}: " irradiance bad.rad --sensors planes.pts
 done
+printf '!gensky -c -B 100 | xform -rz 90\n' >bad.rad
+refused "'xform' is not supported after a sky" irradiance bad.rad --sensors planes.pts
 printf '!gendaylit -ang -4 20 -W 0 10 -O 1\n' >bad.rad
 refused "a sun above the horizon expected" irradiance bad.rad --sensors planes.pts
 finish

@@ -443,6 +443,8 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
     if (result == AUR_OK && (aur_rad_is_word(name, "gendaylit") || aur_rad_is_word(name, "gensky"))) {
         aur_rad_material pattern = {.name = {"skyfunc", 7, command.line}};
         self->pose_count = 0;
+        if (end < count)
+            return fail_command(self, self->words[end + 1], "a sky");
         result = aur_rad_read_daylight(self, end, self->words, &pattern);
         return result == AUR_OK ? add_material(self, pattern) : result;
     }

@@ -212,9 +212,10 @@ aur_result aur_rad_add_spotlight(aur_rad *self, const aur_rad_primitive *item, a
     *luminaire = (struct aur_rad_luminaire){.factor = 1.0, .spot = true, .aim = {x[4], x[5], x[6]}};
     aur_rad_pose_apply(&self->pose, 0.0, luminaire->aim);
     luminaire->focus = aur_normalize3(luminaire->aim);
-    if (!(x[3] > 0.0 && x[3] <= 360.0) || !(luminaire->focus > 0.0) || !(fmin(fmin(x[0], x[1]), x[2]) >= 0.0))
+    if (!(x[3] >= 0.01 && x[3] <= 360.0) || !(luminaire->focus > 0.0) ||
+        !(fmin(fmin(x[0], x[1]), x[2]) >= 0.0))
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
-                            "spotlight: R G B of 0 or more, an angle above 0 and up to 360 degrees, and a "
+                            "spotlight: R G B of 0 or more, an angle from .01 to 360 degrees, and a "
                             "direction expected");
     luminaire->edge = cos(0.5 * x[3] * PI / 180.0);
     memcpy(material->radiance, x, sizeof material->radiance);
@@ -237,8 +238,10 @@ static bool set_frame(const aur_rad *self, const aur_rad_primitive *item,
         }
         aur_cross3(x, y, z);
         aur_rad_pose_apply(&self->pose, 0.0, x);
-    } else if (luminaire->flat) {
+    } else if (strcmp(item->row->name, "ring") == 0) {
         memcpy(z, item->numbers + 3, sizeof z);
+    } else if (luminaire->flat) {
+        return false;
     }
     if (luminaire->flat)
         aur_rad_pose_apply(&self->pose, 0.0, z);
@@ -308,7 +311,7 @@ aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
     aur_nodes *const nodes = self->nodes;
     opening measured;
     if (spot.spot && !set_frame(self, item, &spot))
-        return fail(self, item, "a spotlight's surface has no normal");
+        return fail(self, item, "a spotlight on a rectangle, a ring or a sphere expected, with a normal");
     const aur_result result = spot.spot ? fill_cone(self, &spot) : AUR_OK;
     if (result != AUR_OK)
         return result;
