@@ -38,6 +38,7 @@ static void charges_come_to_the_known_rests(void **state) {
     assert_relative(rest("electrostatic", 72, AUR_DOMAIN_SPHERE), 2255.001190975, 1e-9);
     assert_relative(rest("electrostatic", 24, AUR_DOMAIN_SPHERE), 223.347074052, 1e-9);
     assert_relative(rest("electrostatic", 200, AUR_DOMAIN_SPHERE), 18438.842717530, 1e-9);
+    assert_relative(rest("electrostatic:starts=1", 282, AUR_DOMAIN_SPHERE), 37147.294418462, 1e-10);
 }
 
 /* Antipodal charges that are the best of all 2 N charges are the best axes: octahedron and icosahedron, less

@@ -1,7 +1,8 @@
 /* Equilibria of repelling charges (Thomson 1904; for axes, where each charge has a twin at its opposite,
  * Jones, Horsfield and Simmons 1999), in several shells at once (Caruyer, Lenglet, Sapiro and Deriche 2013).
  *
- * Computed by L-BFGS from a spherical Fibonacci set, from random points, and from the best equilibrium so far
+ * Computed by L-BFGS from lattices on an icosahedron where there are some of the size (Altschuler et al.
+ * 1997), from a spherical Fibonacci set, from random points, and from the best equilibrium so far
  * with some charges moved; the equilibrium of least energy is used. A step costs N^2. In the incremental
  * order each next point is where the energy of the previous ones is minimal (as in MRtrix's dirorder), so
  * that the first n are uniform for every n: a scan may be stopped at any time. */
@@ -15,6 +16,7 @@
 #include "points/sphere/native.h"
 #include "points/sphere/phase.h"
 #include "points/sphere/repulsion/repulsion.h"
+#include "points/sphere/sets/capsid.h"
 
 enum { SHELLS_CAPACITY = 64, LARGEST = 1 << 14 };
 
@@ -104,12 +106,15 @@ static void disturb(uint64_t seed, size_t start, aur_charges *q) {
 static aur_result find_rest(const electrostatic_keys *p, size_t starts, const aur_shells *shells,
                             aur_charges *q, size_t size, double *best, aur_error *error) {
     double least = INFINITY;
-    for (size_t start = 0; start < starts; ++start) {
-        if (4 * start < starts + 3 || shells->count > 1) {
-            start_charges((uint64_t)p->seed, start, shells->count, q);
+    size_t lattice = 0;
+    for (size_t start = 0; start < starts;) {
+        if (!q->axes && shells->count == 1 && aur_capsid(q->count, lattice, q->x, q->y, q->z)) {
+            ++lattice;
+        } else if (4 * start < starts + 3 || shells->count > 1) {
+            start_charges((uint64_t)p->seed, start++, shells->count, q);
         } else {
             memcpy(q->x, best, size * sizeof *best);
-            disturb((uint64_t)p->seed, start, q);
+            disturb((uint64_t)p->seed, start++, q);
         }
         double energy;
         const aur_result result = aur_repel(shells, q, &energy, error);
