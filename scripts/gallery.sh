@@ -22,6 +22,10 @@ parade|parade/parade.xml|--width 960 --error 9% --error-measure mean|1.3|filmic|
 figure|cornell-box/figure.xml|--width 960 --error 3% --error-measure mean|1.6|filmic|A carved hare in the Cornell box
 sphere|sphere/sphere.xml|--width 960 --error 8% --error-measure mean|0.5|filmic|A glossy sphere among seeds
 occlusion|occlusion/occlusion.xml|--width 960 --error 2% --error-measure mean|0|srgb|Ambient occlusion among columns
+atrium|atrium/atrium.xml|--integrator finalgather --width 480 --spp 16|3.5|filmic|A court below sun and sky
+shop|shop/shop.xml|--integrator finalgather --width 540 --spp 16|0.8|filmic|A shop window and its 130 bulbs
+shafts|shafts/shafts.xml|--width 330 --spp 128|1.5|filmic|Shafts of sun in a dusty shed
+caustics|caustics/caustics.xml|--integrator ptracer --width 540 --spp 256|0|filmic|Caustics of glass and gold, by light tracing
 plates|plates/plates.xml|--width 960 --error 6% --error-measure mean|1|filmic|Four plates and seven lights
 cornell-box|cornell-box/cornell-box.xml|--width 960 --error 1% --error-measure mean|0.5|srgb|The measured Cornell box
 glossy|cornell-box/glossy.xml|--width 960 --error 3% --error-measure mean|1|srgb|A teapot in a glossy Cornell box
@@ -47,11 +51,12 @@ new_section() {
   local name=$1 scene=$2 options=$3 exposure=$4 tone=$5 title=$6 triangles size error
   triangles=$("$aureole" info "scenes/$scene" -q | awk '$1 == "triangles" { print $2 }')
   size=$("$aureole" info "$out/$name.exr" | awk '$1 == "EXR" { print $2 " x " $3; exit }')
-  error=$(sed -n 's/.* has an error of \(.*\) % of its mean (mean), between \(.*\) and \(.*\) (95 %).*/\1 % (\2 to \3)/p' "$said")
+  error=$(sed -n -e 's/.* has an error of \(.*\) % of the image mean (mean), between \(.*\) and \(.*\) (95 %).*/\1 % (\2 to \3)/p' \
+    -e 's/.* has an error of at most about \(.*\) % of its mean.*/at most \1 %/p' "$said")
   printf '## %s\n\n[![%s](gallery/%s.jpg)](gallery/%s.jpg)\n\n' "$title" "$title" "$name" "$name"
   printf '    aureole render scenes/%s %s -o %s.exr\n' "$scene" "$options" "$name"
   printf '    aureole convert %s.exr %s.jpg --exposure %s --tone %s\n\n' "$name" "$name" "$exposure" "$tone"
-  printf '%s triangles, %s pixels, error %s, %s CPU seconds.\n\n' "$triangles" "$size" "$error" "$(cat "$out/$name.seconds")"
+  printf '%s triangles, %s pixels, %s%s CPU seconds.\n\n' "$triangles" "$size" "${error:+error $error, }" "$(cat "$out/$name.seconds")"
 }
 
 while IFS='|' read -r name scene options exposure tone title; do
