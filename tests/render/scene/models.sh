@@ -478,6 +478,18 @@ for form in obj off ply stl gltf; do
   "$aureole" compare near.exr far.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "far.$form is not near.$form: $(cat compared)"
 done
 
+# In a body that loses no light, paths end after 32 edges unless an integrator is given.
+printf 'newmtl white\nKd 1 1 1\nKe 1 1 1\n' >white.mtl
+printf 'mtllib white.mtl\nusemtl white\n' >closed.obj
+printf 'v %s\n' '-1 -1 -1' '1 -1 -1' '1 1 -1' '-1 1 -1' '-1 -1 1' '1 -1 1' '1 1 1' '-1 1 1' >>closed.obj
+printf 'f %s\n' '1 2 3 4' '8 7 6 5' '1 5 6 2' '4 3 7 8' '1 4 8 5' '2 6 7 3' >>closed.obj
+for depth in "" 32 33; do
+  "$aureole" render closed.obj ${depth:+--integrator path:max_depth=$depth} --environment none --camera 0,0,0,0,0,-1,60 --width 8 --height 8 --samples 4 -q -o "closed$depth.exr" 2>said ||
+    fail "a closed body: $(cat said)"
+done
+cmp -s closed.exr closed32.exr || fail "paths of models do not end after 32 edges"
+cmp -s closed.exr closed33.exr && fail "no path in a closed body is longer than 32 edges"
+
 # The models that are compared with Mitsuba are the scenes that stand for them there.
 for kind in gltf obj; do
   for side in "" .ours; do

@@ -43,10 +43,13 @@ static void add_variable(aur_nodes *nodes, aur_xml_node *parent, const char *tag
     aur_node_property(nodes, parent, tag, property, "%s", aur_node_variable(nodes, name, otherwise));
 }
 
+/* Bright rough materials of models return more light than they receive (bsdf_principled.c): without a limit,
+ * paths inside of a body grow to fireflies. Longer paths than these carry less than 1e-6 of a body on a
+ * floor. */
 static void add_integrator(aur_nodes *nodes, aur_xml_node *parent) {
     aur_xml_node *const integrator =
         aur_node_object(nodes, parent, "integrator", aur_node_variable(nodes, "integrator", "path"));
-    add_variable(nodes, integrator, "integer", "max_depth", "max_depth", "-1");
+    add_variable(nodes, integrator, "integer", "max_depth", "max_depth", "32");
 }
 
 static void add_film(aur_nodes *nodes, aur_xml_node *sensor, double ratio) {
