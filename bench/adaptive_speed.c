@@ -19,18 +19,15 @@ enum { QUICK_SUBJECTS = 2, FIRST_SAMPLES = 16, COARSEST = 8, STEP = 4 };
 typedef struct speed_row {
     const char *subject;
     double error;
-    double by_recipe, by_target; /* required speedup over the fastest peer */
+    double by_recipe, by_target; /* required speedup over Aureole's path tracer; 0: reported only */
 } speed_row;
 
-/* Rows of a subject are consecutive, from coarse to fine. The heavy box is compared with Aureole's path
- * tracer. */
+/* Rows of a subject are consecutive, from coarse to fine. */
 static const speed_row rows[] = {
-    {"cornell-box", 0.01, 40.0, 25.0},   {"cornell-box", 0.005, 80.0, 50.0},
-    {"cornell-box", 0.002, 100.0, 65.0}, {"glossy-box", 0.02, 12.0, 8.0},
-    {"glossy-box", 0.005, 8.0, 5.0},     {"room", 0.02, 20.0, 10.0},
-    {"room", 0.005, 40.0, 20.0},         {"parade", 0.01, 8.0, 5.0},
-    {"statue", 0.01, 8.0, 5.0},          {"sphere", 0.01, 8.0, 5.0},
-    {"plates", 0.01, 8.0, 5.0},          {"heavy-box", 0.005, 20.0, 12.0},
+    {"cornell-box", 0.01, 0.0, 0.0}, {"cornell-box", 0.005, 0.0, 0.0}, {"cornell-box", 0.002, 0.0, 0.0},
+    {"glossy-box", 0.02, 0.0, 0.0},  {"glossy-box", 0.005, 0.0, 0.0},  {"room", 0.02, 0.0, 0.0},
+    {"room", 0.005, 0.0, 0.0},       {"parade", 0.01, 0.0, 0.0},       {"statue", 0.01, 0.0, 0.0},
+    {"sphere", 0.01, 0.0, 0.0},      {"plates", 0.01, 0.0, 0.0},       {"heavy-box", 0.005, 20.0, 12.0},
 };
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -41,11 +38,6 @@ typedef struct attempt {
     double seconds;               /* CPU; 0: no image was rendered */
     double error, standard_error; /* the measured error and its standard error */
 } attempt;
-
-typedef struct peer {
-    double seconds;
-    char name[48];
-} peer;
 
 static double extrapolated(const attempt *last, double error, double requested, double power) {
     return last->seconds * pow(error / requested, power);
@@ -104,57 +96,10 @@ static bool follow(const bench_study *self, double requested, attempt *found) {
     return true;
 }
 
-/* The fastest of the other renderers for each error, extrapolated by their convergence rates. Peers
- * whose image differs, for example without a light source that they do not support, are ignored. */
-static bool run_peers(const bench_study *self, size_t count, const speed_row *requested, peer *found) {
-    const char *const python = getenv("AUREOLE_PEERS_PYTHON");
-    for (size_t i = 0; i < count; ++i)
-        found[i] = (peer){INFINITY, ""};
-    if (python == NULL || self->options->quick || self->subject->scene[0] == '\0')
-        return true;
-    char command[4096];
-    int used = snprintf(command, sizeof command,
-                        "'%s' '" AUR_SOURCE_DIR
-                        "/bench/peers/time_to_quality.py' aureole --peers %s --size %zux%zu --errors ",
-                        python, self->subject->name, self->width, self->height);
-    for (size_t i = 0; i < count && used < (int)sizeof command; ++i)
-        used += snprintf(command + used, sizeof command - (size_t)used, "%s%.9g", i == 0 ? "" : ",",
-                         requested[i].error * self->mean / self->light);
-    FILE *const pipe = used < (int)sizeof command ? popen(command, "r") : NULL;
-    if (pipe == NULL)
-        return bench_fail("%s cannot be run", python);
-    char line[512], name[48];
-    double mean;
-    for (int read; fgets(line, sizeof line, pipe) != NULL;) {
-        if (sscanf(line, "%47[^|]| %lf%n", name, &mean, &read) != 2) {
-            printf("    %s", line);
-            continue;
-        }
-        const bool similar = fabs(mean / self->light - 1.0) < 0.05;
-        printf("    %s: mean %.4g of %.4g%s\n", name, mean, self->light, similar ? "" : ", another image");
-        const char *rest = line + read;
-        for (size_t i = 0; i < count && similar; ++i) {
-            char *end;
-            const double seconds = strtod(rest, &end);
-            if (end == rest)
-                break;
-            rest = end;
-            if (seconds < found[i].seconds) {
-                found[i].seconds = seconds;
-                snprintf(found[i].name, sizeof found[i].name, "%s", name);
-            }
-        }
-    }
-    return pclose(pipe) == 0 || bench_fail("%s failed", command);
-}
-
-/* Adds the speedup over `limit`, which is infinite without a peer. */
-static void compare(const speed_row *row, const char *what, double required, double limit, double seconds,
+static void compare(const speed_row *row, const char *what, double required, double path, double seconds,
                     bench_figures *figures) {
-    bench_figures_add(figures, isfinite(limit) ? BENCH_AT_LEAST : BENCH_NOTED, required,
-                      isfinite(limit) ? limit / seconds : 0.0, "", "%s, error %.4g: %s / %s%s", row->subject,
-                      row->error, strcmp(row->subject, "heavy-box") == 0 ? "path" : "best peer", what,
-                      isfinite(limit) ? "" : ": no peer is there");
+    bench_figures_add(figures, required > 0.0 ? BENCH_AT_LEAST : BENCH_NOTED, required, path / seconds, "",
+                      "%s, error %.4g: path / %s", row->subject, row->error, what);
 }
 
 static void print_cell(const attempt *found, double requested, double seconds) {
@@ -166,7 +111,7 @@ static void print_cell(const attempt *found, double requested, double seconds) {
 }
 
 static bool study_row(const bench_study *self, const speed_row *row, attempt *converged, attempt *traced,
-                      const peer *best, bench_figures *figures) {
+                      bench_figures *figures) {
     attempt gathered;
     const double relative = row->error * self->mean / self->light;
     if (!follow(self, row->error, &gathered) || !adaptive(self, relative, converged) ||
@@ -179,16 +124,13 @@ static bool study_row(const bench_study *self, const speed_row *row, attempt *co
     print_cell(&gathered, row->error, recipe);
     print_cell(converged, row->error, automatic);
     print_cell(traced, row->error, path);
-    if (isfinite(best->seconds))
-        printf(" %9.4g %s", best->seconds, best->name);
     printf("\n");
     fflush(stdout);
-    const double limit = self->subject->scene[0] == '\0' ? path : best->seconds;
     /* Without a recipe the row of recipes shows `--error`. */
     const bool by_hand = gathered.seconds > 0.0;
-    compare(row, by_hand ? "recipe" : "recipe, which is --error", row->by_recipe, limit,
+    compare(row, by_hand ? "recipe" : "recipe, which is --error", row->by_recipe, path,
             by_hand ? recipe : automatic, figures);
-    compare(row, "--error", row->by_target, limit, automatic, figures);
+    compare(row, "--error", row->by_target, path, automatic, figures);
     return true;
 }
 
@@ -269,13 +211,11 @@ static bool study_subject(const bench_options *options, const bench_subject *sub
         ++first;
     while (first + count < ROW_COUNT && strcmp(rows[first + count].subject, subject->name) == 0)
         ++count;
-    peer best[ROW_COUNT];
     attempt converged = {.seconds = 0.0}, traced = converged;
     bool good = bench_study_open(&self, options, subject, &skipped);
     if (good && !skipped) {
-        good = run_peers(&self, count, rows + first, best);
         for (size_t i = 0; i < (options->quick ? 1 : count) && good; ++i)
-            good = study_row(&self, &rows[first + i], &converged, &traced, &best[i], figures);
+            good = study_row(&self, &rows[first + i], &converged, &traced, figures);
         if (good && getenv("AUREOLE_OIDN") != NULL && !options->quick && subject->scene[0] != '\0')
             good = denoise(&self, figures);
     }
@@ -286,8 +226,8 @@ static bool study_subject(const bench_options *options, const bench_subject *sub
 bool bench_adaptive_speed(const bench_options *options, bench_figures *figures) {
     printf("  CPU seconds of one thread and the measured error +- its standard error; ~: extrapolated by the "
            "power law from the last image, whose error is printed\n  %-12s %-6s %-28s "
-           "%-28s %-28s %s\n",
-           "", "error", " by recipe", " by --error", " path", "best peer");
+           "%-28s %-28s\n",
+           "", "error", " by recipe", " by --error", " path");
     const size_t count = options->quick ? QUICK_SUBJECTS : bench_subject_count;
     for (size_t i = 0; i < count; ++i)
         if ((options->only == NULL || strstr(bench_subjects[i].name, options->only) != NULL) &&

@@ -1,5 +1,4 @@
-/* Cost of images to a target error: by recipe, by `--error`, by Aureole's path tracer and by other renderers.
- */
+/* Cost of images to a target error: by recipe, by `--error`, and by Aureole's path tracer. */
 #pragma once
 
 #include <stdbool.h>
@@ -7,6 +6,6 @@
 #include "bench.h"
 #include "figures.h"
 
-/* Also runs Mitsuba where AUREOLE_PEERS_PYTHON names a Python that has it (bench/peers/time_to_quality.py),
- * and measures denoised images where AUREOLE_OIDN names Open Image Denoise. False after bench_fail. */
+/* Also measures denoised images where AUREOLE_OIDN names Open Image Denoise, and Mitsuba's where
+ * AUREOLE_PEERS_PYTHON names a Python that has it (bench/peers/denoised.py). False after bench_fail. */
 bool bench_adaptive_speed(const bench_options *options, bench_figures *figures);

@@ -10,4 +10,4 @@ static bool run(const bench_options *options) {
 }
 
 const bench bench_adaptive_speed_alone = {"adaptive-speed",
-                                          "what images to a target error cost, next to other renderers", run};
+                                          "what images to a target error cost, next to path tracing", run};

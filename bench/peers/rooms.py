@@ -3,8 +3,6 @@
 
     python3 -m venv /tmp/rooms && /tmp/rooms/bin/pip install numpy
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole [--seeds 101-112] [--seconds 3] [--size 64x48] [--scene FILE.xml]
-    /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --until .01 [--seconds 60]
-    /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --ask .04 --size 320x240 [--seconds 60]
     /tmp/rooms/bin/python bench/peers/rooms.py --write FOLDER --seeds 7
 
 Each room has tables and chairs with thin legs, a floor of glossy wood, a rug, a wall with textures that are black at one corner, mirrors, vases
@@ -15,10 +13,6 @@ By default `finalgather` with its default settings renders for a number of CPU s
 `path` for the same time, and --error to the smaller of their errors. The reference is two path-traced images a and b with independent seeds
 and the number of rays of --rays, sampled adaptively. The mean square error of x is the mean of (x - a)(x - b). The relative standard error of
 the RMSE, half the relative standard error of the mean square error, follows it in parentheses. Ratios are of times to the same error, extrapolated as seconds^-1/2.
-With --until both renderers increase the samples, at most fourfold per step, until the error is reached or the next image would take
-more than --seconds. The time of `path` is then extrapolated to that error; final gathering is biased and cannot be extrapolated, so it has no
-ratio if it does not reach the error. With --ask images are rendered to a target error with --error's automatic choice and with `path`, which
-is limited to --seconds; errors are those that the program reports, without a reference.
 """
 import argparse
 import math
@@ -198,47 +192,13 @@ def compare(given, name, scene):
     rows["path"] = (*error_of(values, references), seconds)
     target = max(min(rows["path"][0], rows["finalgather"][0]), .003)
     values, seconds, message = render(given, scene, "--error", f"{target:.4f}", "--error-measure", "mean")
-    rows["asked"] = (*error_of(values, references), seconds)
+    rows["target"] = (*error_of(values, references), seconds)
     cost = {key: error ** 2 * seconds for key, (error, _, seconds) in rows.items()}
-    gather, auto = cost["path"] / cost["finalgather"], cost["path"] / cost["asked"]
+    gather, auto = cost["path"] / cost["finalgather"], cost["path"] / cost["target"]
     chosen = re.search(r" by ([a-z]+)", message)
     print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * s:.0f}) in {t:.2f} s" for e, s, t in rows.values()) +
           f" | {chosen[1] if chosen else '?'} | {gather:.2f} | {auto:.2f} |", flush=True)
     return gather, auto
-
-
-def until(given, scene, integrator, samples, references):
-    """Error, its relative standard error, CPU seconds and samples of the first image that reaches the error, or of the last one."""
-    while True:
-        values, spent, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
-        error, standard_error = error_of(values, references)
-        factor = min(4.0, max(1.2, 1.1 * (error / given.until) ** 2))
-        if error <= given.until or factor * spent > given.seconds or factor * samples > MOST_SAMPLES:
-            return error, standard_error, spent, samples
-        samples = math.ceil(factor * samples)
-
-
-def compare_until(given, name, scene):
-    references = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
-    rows = [until(given, scene, "finalgather", 4, references), until(given, scene, "path", 16, references)]
-    (own, _, seconds, _), (error, _, spent, _) = rows
-    path = spent * (error / given.until) ** 2
-    ratio = path / seconds if own <= given.until else None
-    print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * u:.0f}) in {t:.3g} s, {n} samples" for e, u, t, n in rows) +
-          f" | {path:.3g} s | {'not reached' if ratio is None else f'{ratio:.2f}'} |", flush=True)
-    return (ratio,)
-
-
-def compare_target(given, name, scene):
-    rows = []
-    for options in ((), ("--integrator", "path", "--time", f"{given.seconds:g}s")):
-        _, seconds, message = render(given, scene, "--error", str(given.ask), "--error-measure", "mean", *options)
-        found = re.search(r"error of ([\d.]+) %.* by ([a-z]+)", message)
-        rows.append((float(found[1]), seconds, found[2]))
-    (own, seconds, chosen), (error, spent, _) = rows
-    ratio = error ** 2 * spent / (own ** 2 * seconds)
-    print(f"| {name} | {own:.2f} % in {seconds:.3g} s | {chosen} | {error:.2f} % in {spent:.3g} s | {ratio:.2f} |", flush=True)
-    return (ratio,)
 
 
 def main():
@@ -246,8 +206,6 @@ def main():
     parser.add_argument("aureole", nargs="?", default="build/release/aureole")
     parser.add_argument("--seeds", default="101-112", help="FIRST-LAST, or one")
     parser.add_argument("--seconds", type=float, default=3)
-    parser.add_argument("--until", type=float, metavar="ERROR", help="RMSE over the mean, such as .01")
-    parser.add_argument("--ask", type=float, metavar="ERROR", help="as --error does, such as .04")
     parser.add_argument("--size", default="64x48")
     parser.add_argument("--rays", default="1e7", help="of each of the two reference images")
     parser.add_argument("--scene", help="this one in place of rooms, whose $integrator is path")
@@ -260,27 +218,17 @@ def main():
         for seed in seeds:
             print(": ".join(reversed(write(given.write, seed))))
         return
-    if given.ask:
-        print("| room | --error | by | path | --error / path |\n|---|---|---|---|---|")
-    elif given.until:
-        print("| room | finalgather | path | path, to the error | finalgather / path |\n|---|---|---|---|---|")
-    else:
-        print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
-    measure = compare_target if given.ask else compare_until if given.until else compare
+    print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
     if given.scene:
-        measure(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
+        compare(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
         return
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
             kind, scene = write(folder, seed)
-            ratios.append(measure(given, f"{seed}, {kind}", scene))
-    for name, found in zip(("--error",) if given.ask else ("finalgather", "--error"), zip(*ratios)):
-        values = [v for v in found if v is not None]
-        if len(values) < len(found):
-            print(f"\n{name}: the error is not there in {len(found) - len(values)} of {len(found)}")
-        if values:
-            print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
+            ratios.append(compare(given, f"{seed}, {kind}", scene))
+    for name, values in zip(("finalgather", "--error"), zip(*ratios)):
+        print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
 
 
 if __name__ == "__main__":

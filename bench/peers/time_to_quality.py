@@ -18,9 +18,6 @@ not identical.
 --equal-samples compares `path` with Mitsuba's at equal samples instead, on more scenes, in alternating pairs: the render call
 (except for the first, which compiles) over Aureole's rendering (the whole process minus one with a single sample, rescaled), and a new
 process of Mitsuba without cached kernels, which loads, compiles and renders, over Aureole's whole process.
-
---peers NAME prints Mitsuba's times on one scene for `aureole-bench adaptive-speed`. Its samples grow fourfold from 16 until it
-reaches the smallest error, or until the next image would take 60 s or exceed a kernel's memory; the power law is that of the last factor of 16.
 """
 import argparse
 import json
@@ -48,8 +45,8 @@ ERRORS = (0.02, 0.005)
 # Samples per pixel at which error and time are measured: squares for multi-jittered samples and powers of 2 for Sobol'.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)} | {name: (16, 64) for name in BUNDLED}
 
-# For --peers: a kernel runs at most this number of lanes, each with some hundred bytes of path state.
-FIRST, STEP, MOST_SECONDS, MOST_LANES = 16, 4, 60.0, 1 << 24
+# For target_error.py: a kernel runs at most this number of lanes, each with some hundred bytes of path state.
+FIRST, STEP, MOST_LANES = 16, 4, 1 << 24
 
 
 def cpu_seconds(who=resource.RUSAGE_SELF):
@@ -281,56 +278,16 @@ KINDS = {
 }
 
 
-def measurements(render, counts):
-    """Samples per pixel, error, CPU seconds and mean."""
-    return [(samples, *pair(render, samples)) for samples in counts]
-
-
-def measurements_until(render, error, pixels):
-    """The same for increasing samples, at least two for the power law. The first render of each compiles its kernel."""
-    samples, found = FIRST, []
-    while len(found) < 2 or (found[-1][1] > error and STEP * found[-1][2] <= MOST_SECONDS and samples * pixels <= MOST_LANES):
-        render(samples, 999)
-        found += measurements(render, [samples])
-        samples *= STEP
-    return found
-
-
-def child(kind, aureole, path, threads, target_errors, pixels):
-    """Extrapolates from two numbers of samples; for --peers (`pixels`), from the last one and a sixteenth of it."""
-    if pixels:
-        SAMPLES.clear()  # no kernels in advance
+def child(kind, aureole, path, threads, target_errors):
+    """Extrapolates from two numbers of samples."""
     render = KINDS[kind](aureole, path, threads)
-    found = measurements_until(render, min(target_errors), pixels) if pixels else measurements(render, SAMPLES[name_of(path)])
-    few, error, seconds, _ = found[max(len(found) - 3, 0)]
-    many, less, more_seconds, mean = found[-1]
+    (few, error, seconds, _), (many, less, more_seconds, mean) = found = [(n, *pair(render, n)) for n in SAMPLES[name_of(path)]]
     slope = math.log(less / error) / math.log(many / few)
     each = (more_seconds - seconds) / (many - few)
     counts = [many * (target / less) ** (1 / slope) for target in target_errors]
     times = [max(each, more_seconds + each * (count - many)) for count in counts]
     print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts],
                       "errors": [row[1] for row in found], "slope": slope, "many": many}))
-
-
-# --- the other renderers alone, for `aureole-bench adaptive-speed`
-
-
-def print_peers(given, folder):
-    """Prints name|mean of the image, CPU seconds to each of the errors; or the reason for a failure."""
-    path, _, _, definitions = (SCENES | BUNDLED)[given.peers]
-    width, height = (int(side) for side in given.size.split("x"))
-    copy = os.path.join(folder, given.peers + ".xml")
-    with open(copy, "w", encoding="utf-8") as file:
-        file.write(scene_text(path, width, height, definitions))
-    kind = "Mitsuba llvm_ad_rgb, multijitter"  # Cycles took two to six times as long on every scene
-    row, reason = run_child([given.aureole, "--threads", str(given.threads), "--errors", ",".join(map(str, given.errors)),
-                             "--pixels", str(width * height), "--child", kind, copy])
-    if row is None:
-        print(f"{kind}: not measured: {reason}", flush=True)
-        return
-    errors = ", ".join(f"{100 * error:.3g}" for error in row["errors"])
-    print(f"{kind}: errors of {errors} % up to {row['many']} samples per pixel, as samples^{row['slope']:.2f} at the end")
-    print(f"{kind}|{row['mean']} " + " ".join(map(str, row["times"])), flush=True)
 
 
 # --- equal samples
@@ -411,9 +368,6 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--only", default="")
     parser.add_argument("--equal-samples", action="store_true")
-    parser.add_argument("--peers", metavar="NAME", choices=sorted(SCENES | BUNDLED))
-    parser.add_argument("--size", default="240x160", help="of --peers")
-    parser.add_argument("--pixels", type=int, default=0, help="of --peers, to its child")
     parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=list(ERRORS), help="relative ones")
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--samples", type=int, default=16, help="per pixel, where they are equal; more than 1")
@@ -427,11 +381,7 @@ def main():
         compiling_child(given, given.child[1])
         return
     if given.child:
-        child(given.child[0], given.aureole, given.child[1], given.threads, given.errors, given.pixels)
-        return
-    if given.peers:
-        with tempfile.TemporaryDirectory() as folder:
-            print_peers(given, folder)
+        child(given.child[0], given.aureole, given.child[1], given.threads, given.errors)
         return
     if given.equal_samples:
         with tempfile.TemporaryDirectory() as folder:
