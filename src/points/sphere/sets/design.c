@@ -29,8 +29,8 @@ typedef struct design {
 } design;
 
 /* For all points: Legendre's functions of one order without their factor r^m, their slopes, and the
- * trigonometric parts r^(m-1) cos(m phi) and r^(m-1) sin(m phi). */
-enum { HERE, BEFORE, SLOPE, SLOPE_BEFORE, COSINE, SINE, ROWS };
+ * trigonometric parts r^(m-1) cos(m phi) and r^(m-1) sin(m phi), and r. */
+enum { HERE, BEFORE, SLOPE, SLOPE_BEFORE, COSINE, SINE, RADIUS, ROWS };
 
 size_t aur_design_half(size_t degree) {
     return (degree * degree + degree + 7) / 4 + degree / 8;
@@ -60,9 +60,10 @@ static double add_equation(design *d, size_t m, const double *points, const doub
                            double sign, double *row) {
     const size_t n = d->count;
     const double *const here = d->rows + HERE * n, *const slope = d->rows + SLOPE * n;
+    const double *const radius = d->rows + RADIUS * n;
     double *const values = d->step;
     for (size_t i = 0; i < n; ++i)
-        values[i] = here[i] * part[i] * radius_of(points + 3 * i);
+        values[i] = here[i] * part[i] * radius[i];
     const double mean = sum_of(n, values) / (double)n;
     if (row == NULL)
         return mean;
@@ -116,7 +117,8 @@ static double find_means(design *d, const double *points, double *means, double 
     double *const rows = d->rows, scale = 1.0;
     size_t k = 0;
     for (size_t i = 0; i < n; ++i) {
-        rows[COSINE * n + i] = 1.0 / radius_of(points + 3 * i);
+        rows[RADIUS * n + i] = radius_of(points + 3 * i);
+        rows[COSINE * n + i] = 1.0 / rows[RADIUS * n + i];
         rows[SINE * n + i] = 0.0;
     }
     for (size_t m = 0; m < d->degree; ++m) {
