@@ -2,8 +2,11 @@
 #include "render/scene/scene_text.h"
 
 #include <aureole-render/render.h>
+#include <math.h>
 
-enum { SIDE = 8, SAMPLES = 16 };
+#include "render/gather/incident.h"
+
+enum { SIDE = 8, SAMPLES = 16, DIRECTIONS = 1024 };
 
 static void store_message(void *user, const char *message) {
     snprintf(user, 512, "%s", message);
@@ -62,8 +65,30 @@ static void cut_paths_are_counted(void **state) {
     assert_non_null(strstr(said, "1024 paths of 1024 samples were cut"));
 }
 
+/* Gather rays from a small square are reflected within a large mirror, and each reflection goes on with
+ * probability 0.95: those that survive one more than the longest chain are cut, and no others. Their number
+ * is binomial; the limits are 5 standard deviations (1 in 1.7 million). One ray in 3 million meets the
+ * square. */
+static void cut_chains_of_gather_rays_are_counted(void **state) {
+    (void)state;
+    char said[512];
+    const aur_render_statistics s = statistics_of(
+        "finalgather:diffuse_samples=1024,photons=1000",
+        "<emitter type='point'><point name='position' x='0' y='0' z='0.01'/></emitter>"
+        "<shape type='rectangle'><transform name='to_world'><scale value='0.04'/>"
+        "<rotate y='1' angle='180'/><translate z='0.02'/></transform></shape>"
+        "<shape type='sphere'><float name='radius' value='100'/><point name='center' x='0' y='0' z='50'/>"
+        "<bsdf type='twosided'><bsdf type='conductor'><string name='material' value='none'/></bsdf></bsdf>"
+        "</shape>",
+        said);
+    const double p = pow(0.95, AUR_LONGEST_CHAIN + 1.0), rays = SIDE * SIDE * DIRECTIONS;
+    const double margin = 5.0 * sqrt(rays * p * (1.0 - p)), expected = rays * p;
+    assert_true(fabs((double)s.cut_paths - expected) < margin);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(invalid_samples_are_counted),
-                                       cmocka_unit_test(cut_paths_are_counted)};
+                                       cmocka_unit_test(cut_paths_are_counted),
+                                       cmocka_unit_test(cut_chains_of_gather_rays_are_counted)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
