@@ -50,6 +50,9 @@ typedef struct aur_emitter_descriptor {
     /* For environments only: the radiance from a direction, and the pdf with which `sample` samples it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
+    /* For `sample` and `emit` by aur_environment_sample and _emit: the unit direction of two random numbers.
+     */
+    aur_vector (*draw)(const aur_emitter *emitter, float u, float v);
     /* Both at once, if that is faster; may be NULL. */
     aur_vector (*light_from)(const aur_emitter *emitter, aur_vector direction, float *pdf);
     /* The same for the directions of active lanes; may be NULL. */
@@ -102,12 +105,11 @@ static inline aur_vector aur_emitter_light_from(const aur_emitter *emitter, aur_
     return descriptor->radiance_from(emitter, direction);
 }
 
-/* For environments, after sampling a direction: the complete sample, and an emitted particle. False if the
- * pdf is 0, or if the reference excludes the direction's side. */
-bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *query, aur_vector direction,
+/* `sample` and `emit` of environments by `draw`. False if the pdf is 0, or if the reference excludes the
+ * direction's side. */
+bool aur_environment_sample(const aur_emitter *emitter, const aur_light_query *query,
                             aur_light_sample *drawn);
-bool aur_emit_environment(const aur_emitter *emitter, aur_vector direction, float u, float v, aur_ray *ray,
-                          aur_vector *power);
+bool aur_environment_emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error);
 void aur_emitter_destroy(aur_emitter *emitter);

@@ -22,8 +22,9 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
     return (aur_ray){origin, 0.0f, aur_vector_scale(direction, -1.0f), INFINITY};
 }
 
-bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *query, aur_vector direction,
+bool aur_environment_sample(const aur_emitter *emitter, const aur_light_query *query,
                             aur_light_sample *drawn) {
+    const aur_vector direction = emitter->descriptor->draw(emitter, query->u[1], query->u[2]);
     if (aur_vector_dot(query->reference.normal, direction) < 0.0f)
         return false;
     aur_sample_far(emitter->scene, query->reference.position, direction, drawn);
@@ -33,12 +34,12 @@ bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *q
     return drawn->pdf > 0.0f;
 }
 
-bool aur_emit_environment(const aur_emitter *emitter, aur_vector direction, float u, float v, aur_ray *ray,
-                          aur_vector *power) {
+bool aur_environment_emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const aur_vector direction = emitter->descriptor->draw(emitter, u[1], u[2]);
     const float pdf = emitter->descriptor->pdf_from(emitter, direction), radius = emitter->scene->radius;
     if (!(pdf > 0.0f))
         return false;
-    *ray = aur_emit_far(emitter->scene, direction, u, v);
+    *ray = aur_emit_far(emitter->scene, direction, u[3], u[4]);
     *power = aur_vector_scale(emitter->descriptor->radiance_from(emitter, direction),
                               AUR_PI_F * radius * radius / pdf);
     return true;

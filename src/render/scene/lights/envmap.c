@@ -264,10 +264,9 @@ static void envmap_lights_from(const aur_emitter *emitter, uint32_t lanes, const
     }
 }
 
-static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
-    const aur_envmap *const self = emitter->data;
+static aur_vector draw_envmap(const aur_emitter *emitter, float u, float v) {
     aur_envmap_position at;
-    return aur_emit_environment(emitter, draw_direction(self, u[1], u[2], &at), u[3], u[4], ray, power);
+    return draw_direction(emitter->data, u, v, &at);
 }
 
 const aur_emitter_descriptor aur_emitter_envmap = {
@@ -280,7 +279,8 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .prepare = prepare_envmap,
     .sample = sample_envmap,
     .lanes = envmap_lanes,
-    .emit = emit_envmap,
+    .emit = aur_environment_emit,
+    .draw = draw_envmap,
     .release = release_envmap,
     .radiance_from = envmap_from,
     .pdf_from = envmap_pdf,

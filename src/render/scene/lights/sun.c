@@ -80,14 +80,8 @@ static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
     return aur_sun_disk_contains(self, direction) ? (float)(1.0 / aur_sun_disk_solid_angle(self)) : 0.0f;
 }
 
-static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    return aur_sample_environment(emitter, query, aur_sun_disk_draw(emitter->data, query->u[1], query->u[2]),
-                                  drawn);
-}
-
-static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
-    return aur_emit_environment(emitter, aur_sun_disk_draw(emitter->data, u[1], u[2]), u[3], u[4], ray,
-                                power);
+static aur_vector draw(const aur_emitter *emitter, float u, float v) {
+    return aur_sun_disk_draw(emitter->data, u, v);
 }
 
 const aur_emitter_descriptor aur_emitter_sun = {
@@ -98,8 +92,9 @@ const aur_emitter_descriptor aur_emitter_sun = {
     .is_far = true,
     .adds = true,
     .create = create,
-    .sample = sample,
-    .emit = emit,
+    .sample = aur_environment_sample,
+    .emit = aur_environment_emit,
+    .draw = draw,
     .radiance_from = radiance_from,
     .pdf_from = pdf_from,
 };

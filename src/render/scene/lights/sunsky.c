@@ -198,20 +198,13 @@ static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
                : sky;
 }
 
-static aur_vector draw(const sunsky *self, float u, float v) {
+static aur_vector draw(const aur_emitter *emitter, float u, float v) {
+    const sunsky *const self = emitter->data;
     if (u >= self->dome_share)
         return aur_sun_disk_draw(&self->disk, (u - self->dome_share) / (1.0f - self->dome_share), v);
     double local[3];
     aur_sky_dome_draw(&self->dome, aur_smaller(u / self->dome_share, 1.0f - 0x1p-24f), v, local);
     return aur_sun_position_to_world(&self->position, local);
-}
-
-static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    return aur_sample_environment(emitter, query, draw(emitter->data, query->u[1], query->u[2]), drawn);
-}
-
-static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
-    return aur_emit_environment(emitter, draw(emitter->data, u[1], u[2]), u[3], u[4], ray, power);
 }
 
 const aur_emitter_descriptor aur_emitter_sunsky = {
@@ -222,8 +215,9 @@ const aur_emitter_descriptor aur_emitter_sunsky = {
     .is_far = true,
     .create = create,
     .prepare = prepare,
-    .sample = sample,
-    .emit = emit,
+    .sample = aur_environment_sample,
+    .emit = aur_environment_emit,
+    .draw = draw,
     .release = release,
     .radiance_from = radiance_from,
     .pdf_from = pdf_from,
