@@ -66,7 +66,7 @@ static aur_result read_options(const aur_irradiance_options *given, aur_irradian
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d directions, not %zu", LIMIT,
                         o->directions);
     if ((unsigned)o->reflected > AUR_REFLECTED_BY_RADIOSITY)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no way %u to find reflected light",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown method %u for reflected light",
                         (unsigned)o->reflected);
     if (o->particles > LIMIT)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d particles, not %zu", LIMIT,
@@ -242,7 +242,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
                           sizeof *results, result_size);
     if (result == AUR_OK)
         result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
-    if (result == AUR_OK && aur_scene_emitter_count(scene) == 0)
+    if (result == AUR_OK && scene->emitter_count == 0)
         result = aur_fail_at(error, scene->document.tree.root->location, AUR_ERROR_UNSUPPORTED,
                              "the scene has no light, so that all would be 0");
     if (result != AUR_OK)

@@ -91,14 +91,14 @@ void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *li
     aur_normalize3(unit);
     double from[3];
     for (size_t d = 0; d < 3; ++d) {
-        from[d] = position[d] - aur_scene_origin(scene)[d];
+        from[d] = position[d] - scene->origin[d];
         const double numbers[2] = {from[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
         uint64_t bits[2];
         memcpy(bits, numbers, sizeof bits);
         surface_point->hash = aur_hash3(surface_point->hash, bits[0], bits[1]);
     }
     const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
-    const aur_vector at = aur_place_from(aur_scene_origin(scene), position);
+    const aur_vector at = aur_place_from(scene->origin, position);
     surface_point->frame = aur_frame_about(aur_vector_normalize(z));
     surface_point->position = at;
     footing before = {.height = 0.0f};

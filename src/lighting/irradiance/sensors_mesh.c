@@ -9,7 +9,7 @@
 /* Facets without area have no sensor; a warning has been sent. */
 static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur_sensors *sensors,
                                  aur_error *error) {
-    const double *const origin = aur_scene_origin(facets->scene);
+    const double *const origin = facets->scene->origin;
     size_t count = 0;
     for (size_t i = 0; i < facets->count; ++i)
         count += facets->areas[i] > 0.0;

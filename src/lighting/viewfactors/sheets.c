@@ -8,7 +8,7 @@
 /* In the file's units: its digits give the precision of coordinates. */
 static void find_corners(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
     const aur_facets *const facets = context;
-    const double *const origin = aur_scene_origin(facets->scene);
+    const double *const origin = facets->scene->origin;
     for (size_t i = 0; i < count; ++i)
         for (int c = 0; c < 3; ++c)
             for (int d = 0; d < 3; ++d)

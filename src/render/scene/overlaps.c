@@ -520,8 +520,3 @@ aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t thread
         aur_overlaps_release(overlaps);
     return result;
 }
-
-void aur_overlaps_release(aur_overlaps *overlaps) {
-    free(overlaps->items);
-    *overlaps = (aur_overlaps){0};
-}

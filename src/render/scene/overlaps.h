@@ -4,6 +4,7 @@
 #include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "points/base/error.h"
 #include "render/scene/scene_data.h"
@@ -39,7 +40,10 @@ typedef struct aur_overlaps {
  * MEMORY. */
 AUR_INTERNAL aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t threads,
                                           aur_overlaps *overlaps, aur_error *error);
-AUR_INTERNAL void aur_overlaps_release(aur_overlaps *overlaps);
+static inline void aur_overlaps_release(aur_overlaps *overlaps) {
+    free(overlaps->items);
+    *overlaps = (aur_overlaps){0};
+}
 
 /* Surfaces in one plane: the first in the file wins. */
 

@@ -197,7 +197,7 @@ bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_
 /* Whether the scene has a light that rays cannot hit. */
 bool aur_scene_has_hidden_light(const aur_scene *scene);
 
-AUR_INTERNAL size_t aur_scene_emitter_count(const aur_scene *scene);
+size_t aur_scene_emitter_count(const aur_scene *scene);
 
 /* --- media */
 
@@ -313,7 +313,7 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
 /* The world position of the origin of internal coordinates, near most of the scene, so that floats are
  * accurate. Only input and output use world coordinates. `origin` is valid as long as the scene. */
-AUR_INTERNAL const double *aur_scene_origin(const aur_scene *scene);
+const double *aur_scene_origin(const aur_scene *scene);
 /* A world point in internal coordinates. */
 static inline aur_vector aur_place_from(const double origin[3], const double point[3]) {
     return (aur_vector){(float)(point[0] - origin[0]), (float)(point[1] - origin[1]),

@@ -5,11 +5,6 @@
 
 #include "render/scene/scene_data.h"
 
-void aur_packet_clear(aur_packet *packet) {
-    memset(packet, 0, sizeof *packet);
-    memset(packet->query.ray.mask, 0xff, sizeof packet->query.ray.mask);
-}
-
 /* --- packets of the processor's width
  *
  * Embree's packets are rows of 4 bytes per ray, one row per field: those of the rays, then those of their

@@ -6,6 +6,8 @@
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
 #pragma once
 
+#include <string.h>
+
 #include "points/base/error.h"
 #include "render/scene/lanes.h"
 #include "render/trace/embree.h"
@@ -15,8 +17,11 @@ typedef struct aur_packet {
     struct RTCRayHit16 query;                /* directions of unit length */
 } aur_packet;
 
-/* No rays; what all rays share is set. Once a packet, however often it is refilled. */
-AUR_INTERNAL void aur_packet_clear(aur_packet *packet);
+/* Removes all rays and sets what they share; needed once per packet, however often it is refilled. */
+static inline void aur_packet_clear(aur_packet *packet) {
+    memset(packet, 0, sizeof *packet);
+    memset(packet->query.ray.mask, 0xff, sizeof packet->query.ray.mask);
+}
 
 static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray *ray) {
     struct RTCRay16 *const rays = &packet->query.ray;

@@ -8,20 +8,6 @@
 #include "points/base/random.h"
 #include "points/quadrature/estimate/levels.h"
 
-void aur_levels_add(aur_levels *levels, size_t points, const double *values) {
-    const double weight = (double)points * sqrt((double)points);
-    levels->weight += weight;
-    for (size_t i = 0; i < levels->replicates * levels->values; ++i)
-        levels->sums[i] += weight * values[i];
-}
-
-aur_moments aur_levels_moments(const aur_levels *levels, size_t index) {
-    aur_moments moments = {0};
-    for (size_t r = 0; r < levels->replicates; ++r)
-        aur_moments_add(&moments, levels->sums[r * levels->values + index] / levels->weight);
-    return moments;
-}
-
 /* Points of a randomisation on the first level; points after which a constant functional ends the estimate.
  */
 enum { MOST_REPLICATES = 64, MOST_VALUES = 4096, FIRST = 128, CONSTANT = 65536 };
@@ -33,7 +19,7 @@ static aur_result check(const aur_estimate_options *o, aur_error *error) {
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the functional must have 1 to %d values, not %zu",
                         MOST_VALUES, o->values);
     if (!(o->absolute >= 0.0 && o->relative >= 0.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the errors wanted must be 0 or more, not %g and %g",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "target errors must be 0 or more, not %g and %g",
                         o->absolute, o->relative);
     if (!(o->confidence > 0.0 && o->confidence < 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT,

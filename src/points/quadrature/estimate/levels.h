@@ -5,8 +5,7 @@
 #pragma once
 
 #include <aureole/statistics.h>
-
-#include "points/base/error.h"
+#include <math.h>
 
 typedef struct aur_levels {
     size_t replicates, values;
@@ -15,7 +14,17 @@ typedef struct aur_levels {
 } aur_levels;
 
 /* Adds one level: values of each replicate from `points` points. */
-AUR_INTERNAL void aur_levels_add(aur_levels *levels, size_t points, const double *values);
+static inline void aur_levels_add(aur_levels *levels, size_t points, const double *values) {
+    const double weight = (double)points * sqrt((double)points);
+    levels->weight += weight;
+    for (size_t i = 0; i < levels->replicates * levels->values; ++i)
+        levels->sums[i] += weight * values[i];
+}
 
 /* The moments of value `index` over the randomisations. */
-AUR_INTERNAL aur_moments aur_levels_moments(const aur_levels *levels, size_t index);
+static inline aur_moments aur_levels_moments(const aur_levels *levels, size_t index) {
+    aur_moments moments = {0};
+    for (size_t r = 0; r < levels->replicates; ++r)
+        aur_moments_add(&moments, levels->sums[r * levels->values + index] / levels->weight);
+    return moments;
+}
