@@ -255,8 +255,8 @@ static bool handle(void *user, const char *method, const char *target, bool last
     }
     if (strncmp(what, "state/", 6) == 0)
         return answer_state(watch, what + 6, last, answer);
-    if (strncmp(what, "picture/", 8) == 0)
-        return answer_layer(watch, what + 8, answer);
+    if (strncmp(what, "image/", 6) == 0)
+        return answer_layer(watch, what + 6, answer);
     if (!acts)
         return answer_status(answer, 404);
     if (what[0] == 't')

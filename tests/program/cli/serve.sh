@@ -75,7 +75,7 @@ grep -qE '(src|href)="?(https?:)?//' <<<"$page" && fail "the page looks for some
 status 200 "$(ask HEAD "/$token/")" "the head of the page"
 [ "$(ask HEAD "/$token/" | wc -l)" -lt 12 ] || fail "a head with a body"
 wrong=$(tr 0-9a-f 1-9a-f0 <<<"$token")
-for path in / "/$wrong/" "/$wrong/state/1/0" "/$token" "/$token/x" "/$token/../$token/" "/$token/picture/99" "/$token/state/1" /etc/passwd; do
+for path in / "/$wrong/" "/$wrong/state/1/0" "/$token" "/$token/x" "/$token/../$token/" "/$token/image/99" "/$token/state/1" /etc/passwd; do
   status 404 "$(ask GET "$path")" "$path"
 done
 status 405 "$(ask GET "/$token/stop")" "GET of stop"
@@ -97,7 +97,7 @@ status 200 "$state" "the state"
 for what in '"what": "rendering"' '"width": 64' '"name": "image", "channels": \["R", "G", "B"\]' '"ended": ""'; do
   grep -q "$what" <<<"$state" || fail "no $what in $(tail -1 <<<"$state")"
 done
-picture=$(ask GET "/$token/picture/1")
+picture=$(ask GET "/$token/image/1")
 grep -q '"width": 64, "height": 64, "channels": 3, .*"name": "albedo", "data": "eA' <<<"$picture" || fail "a picture: $(tail -1 <<<"$picture" | head -c 200)"
 # A second program cannot have the same port, and says so before it works.
 "$aureole" render "$scene" -q -o none.exr --serve="$port" 2>message.txt

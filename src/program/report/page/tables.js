@@ -1,6 +1,6 @@
-// Tables: a press on a column's name sorts by it, and the link below gives the data as CSV.
+// Tables: a click on a column's name sorts by it; the link below saves the data as CSV.
 'use strict';
-// A number is shown with five digits; where it has more, they are its title.
+// Numbers have five digits; the title holds all digits.
 function exact(cell) {
   return cell.title || cell.textContent;
 }
@@ -42,7 +42,7 @@ for (const button of document.querySelectorAll('button.theme'))
     const style = document.documentElement.style, dark = matchMedia('(prefers-color-scheme: dark)').matches;
     style.colorScheme = style.colorScheme === '' ? (dark ? 'light' : 'dark') : style.colorScheme === 'dark' ? 'light' : 'dark';
   });
-// The part of the address behind #: theme=dark, sort=TABLE,COLUMN, and what viewer.js reads.
+// The fragment of the URL: theme=dark, sort=TABLE,COLUMN, and the viewer's state (viewer.js).
 const wanted = new URLSearchParams(location.hash.slice(1));
 if (wanted.has('theme'))
   document.documentElement.style.colorScheme = wanted.get('theme');

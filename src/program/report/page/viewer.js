@@ -1,15 +1,15 @@
-// The viewer of pictures of one scene: flip, split, side by side, differences; every state has an address behind #.
+// The viewer of images of one scene: flip, split, side by side, differences. The URL's fragment stores its state.
 'use strict';
 const modes = [['flip', 'One', 'f'], ['split', 'Slider', 's'], ['side', 'Side by side', 'g'], ['difference', 'Difference', 'd'],
                ['error', 'False colour', 'c'], ['values', 'Values', 'v'], ['contours', 'Contours', 'l']];
 const viewers = [];
 class Viewer {
-  constructor(figure, index, pictures) {
-    Object.assign(this, {figure, index, pictures});
+  constructor(figure, index, images) {
+    Object.assign(this, {figure, index, images});
     this.palette = document.getElementById('palette').textContent.trim().match(/../g).map(h => parseInt(h, 16));
-    const reference = pictures.findIndex(p => p.reference);
+    const reference = images.findIndex(p => p.reference);
     this.b = Math.max(reference, 0);
-    this.a = this.b === 0 && pictures.length > 1 ? 1 : 0;
+    this.a = this.b === 0 && images.length > 1 ? 1 : 0;
     this.unit = figure.dataset.unit || '';
     this.mode = this.unit ? 'values' : 'flip';
     this.valueStops = 0;
@@ -34,7 +34,7 @@ class Viewer {
       made.addEventListener('click', () => { act(); this.draw(); });
       return made;
     };
-    this.names = this.pictures.map((p, i) => button(p.name, `key ${i + 1}`, () => this.choose(i)));
+    this.names = this.images.map((p, i) => button(p.name, `key ${i + 1}`, () => this.choose(i)));
     this.modes = modes.map(([name, text, key]) => button(text, `key ${key}`, () => { this.mode = name; }));
     this.range = document.createElement('input');
     Object.assign(this.range, {type: 'range', min: -10, max: 10, step: 0.5});
@@ -52,7 +52,7 @@ class Viewer {
     this.canvas.setAttribute('role', 'img');
     this.output = document.createElement('output');
     const help = document.createElement('details');
-    help.innerHTML = '<summary>Keys</summary>1 to 9, left, right: picture. Space: to and fro. f, s, g, d, c, v, l: one, slider, side by side, ' +
+    help.innerHTML = '<summary>Keys</summary>1 to 9, left, right: image. Space: to and fro. f, s, g, d, c, v, l: one, slider, side by side, ' +
       'difference, its false colour, values in false colour, with contours. [ ]: move the slider. e, E: exposure. + - 0: zoom. Shift and arrows: move. Drag, wheel and two fingers work too.';
     this.bar = bar(...this.names);
     this.figure.append(this.bar,
@@ -63,9 +63,9 @@ class Viewer {
     new ResizeObserver(() => { if (this.fitted) this.fit(); this.draw(); }).observe(this.canvas);
   }
   choose(i) {
-    if (i === this.a || i < 0 || i >= this.pictures.length)
+    if (i === this.a || i < 0 || i >= this.images.length)
       return;
-    if (!this.pictures[this.b].reference)
+    if (!this.images[this.b].reference)
       this.b = this.a;
     this.a = i;
   }
@@ -80,23 +80,23 @@ class Viewer {
     else
       this.exposure = stops;
   }
-  // Where pictures lie in the canvas, in its own pixels: [picture, x, y, width, height].
+  // Rectangles of images in pixels of the canvas: [image, x, y, width, height].
   cells() {
-    const {width, height} = this.canvas, n = this.pictures.length;
+    const {width, height} = this.canvas, n = this.images.length;
     if (this.mode !== 'side')
       return [[this.a, 0, 0, width, height]];
     let best = 1, largest = 0;
     for (let columns = 1; columns <= n; ++columns) {
-      const cell = Math.min(width / columns / this.pictures[0].width, height / Math.ceil(n / columns) / this.pictures[0].height);
+      const cell = Math.min(width / columns / this.images[0].width, height / Math.ceil(n / columns) / this.images[0].height);
       if (cell > largest)
         [best, largest] = [columns, cell];
     }
     const w = Math.floor(width / best), h = Math.floor(height / Math.ceil(n / best));
-    return this.pictures.map((_, i) => [i, i % best * w, Math.floor(i / best) * h, w - 2, h - 2]);
+    return this.images.map((_, i) => [i, i % best * w, Math.floor(i / best) * h, w - 2, h - 2]);
   }
   fit() {
     this.resize();
-    const [, , , w, h] = this.cells()[0], {width, height} = this.pictures[0];
+    const [, , , w, h] = this.cells()[0], {width, height} = this.images[0];
     this.zoom = Math.min(w / width, h / height);
     [this.x, this.y] = [width / 2, height / 2];
     this.fitted = true;
@@ -114,19 +114,19 @@ class Viewer {
   source(i) {
     const key = [i, this.isError() ? this.b : -1, this.isError() || this.isMap() ? this.mode : '', this.stops(), this.curve].join();
     if (!this.cache.has(key)) {
-      if (this.cache.size > 3 * this.pictures.length)
+      if (this.cache.size > 3 * this.images.length)
         this.cache.clear();
-      const [p, r] = [this.pictures[i], this.pictures[this.b]];
+      const [p, r] = [this.images[i], this.images[this.b]];
       this.cache.set(key, this.isMap() ? valuesShown(p, this.palette, this.scale(), this.mode === 'contours') : this.mode === 'error' ? errorShown(p, r, this.palette, this.scale())
         : this.mode === 'difference' ? differenceShown(p, r, this.stops()) : shown(p, this.stops(), this.curve));
     }
     return this.cache.get(key);
   }
-  // The value or difference that is drawn brightest.
+  // The value or difference of the brightest colour.
   scale() {
     if (this.isMap())
-      return Math.max(...this.pictures.map(largestValue)) * 2 ** -this.valueStops || 1;
-    return (statistics(this.pictures[this.a], this.pictures[this.b]).largest || 1) * 2 ** -this.errorStops;
+      return Math.max(...this.images.map(largestValue)) * 2 ** -this.valueStops || 1;
+    return (statistics(this.images[this.a], this.images[this.b]).largest || 1) * 2 ** -this.errorStops;
   }
   draw() {
     this.resize();
@@ -138,23 +138,23 @@ class Viewer {
     for (const [i, x, y, w, h] of cells) {
       this.paint(context, i, x, y, w, h, x, w);
       if (this.mode === 'side')
-        this.caption(context, this.pictures[i].name, x, y + 16 * scale, scale);
+        this.caption(context, this.images[i].name, x, y + 16 * scale, scale);
     }
     if (this.mode === 'split') {
       const at = Math.round(this.split * this.canvas.width);
       this.paint(context, this.b, 0, 0, this.canvas.width, this.canvas.height, at, this.canvas.width - at);
       context.fillStyle = '#fff';
       context.fillRect(at - scale, 0, 2 * scale, this.canvas.height);
-      this.caption(context, this.pictures[this.a].name, 0, 16 * scale, scale);
-      this.caption(context, this.pictures[this.b].name, at + 2, 32 * scale, scale);
+      this.caption(context, this.images[this.a].name, 0, 16 * scale, scale);
+      this.caption(context, this.images[this.b].name, at + 2, 32 * scale, scale);
     }
     if (this.mode === 'error' || this.isMap())
       this.colourBar(context, scale);
     this.tell();
   }
-  // One picture in a cell, of which only `width` pixels from `from` on are painted.
+  // Draws `width` pixels of an image from `from` on in a cell.
   paint(context, i, x, y, w, h, from, width) {
-    const left = x + w / 2 - this.x * this.zoom, top = y + h / 2 - this.y * this.zoom, p = this.pictures[i];
+    const left = x + w / 2 - this.x * this.zoom, top = y + h / 2 - this.y * this.zoom, p = this.images[i];
     context.save();
     context.beginPath();
     context.rect(from, y, width, h);
@@ -167,7 +167,7 @@ class Viewer {
     context.restore();
   }
   numbers(context, i, left, top, x, y, w, h) {
-    const p = this.pictures[i], size = this.zoom / 5;
+    const p = this.images[i], size = this.zoom / 5;
     context.save();
     context.font = `${size}px ui-monospace, monospace`;
     for (let row = Math.max(0, Math.floor((y - top) / this.zoom)); row < p.height && top + row * this.zoom < y + h; ++row)
@@ -196,11 +196,11 @@ class Viewer {
     }
     this.caption(context, `0 to ${this.scale().toPrecision(3)} ${this.unit}`, 10, top + 24 * scale, scale);
   }
-  // What is seen, in words: the state in the figure, the values of the pixel in the line below.
+  // Describes the view: its state in the figure, the values of a pixel in the line below.
   tell() {
-    const {width, height} = this.pictures[0], at = this.pointed || [this.x, this.y];
+    const {width, height} = this.images[0], at = this.pointed || [this.x, this.y];
     const [x, y] = [Math.min(Math.max(Math.floor(at[0]), 0), width - 1), Math.min(Math.max(Math.floor(at[1]), 0), height - 1)];
-    const [p, r] = [this.pictures[this.a], this.pictures[this.b]];
+    const [p, r] = [this.images[this.a], this.images[this.b]];
     const values = q => valueAt(q, x, y).map(v => v.toPrecision(4)).join(' ');
     let text = `pixel ${x}, ${y}   ${p.name}: ${values(p)}`;
     if (this.a !== this.b)
@@ -221,10 +221,10 @@ class Viewer {
   }
   go(wanted) {
     const number = (name, otherwise) => wanted.has(name) && isFinite(wanted.get(name)) ? Number(wanted.get(name)) : otherwise;
-    const picture = (name, otherwise) => Math.min(Math.max(Math.round(number(name, otherwise)), 0), this.pictures.length - 1);
+    const image = (name, otherwise) => Math.min(Math.max(Math.round(number(name, otherwise)), 0), this.images.length - 1);
     if (modes.some(m => m[0] === wanted.get('mode')))
       this.mode = wanted.get('mode');
-    [this.a, this.b] = [picture('a', this.a), picture('b', this.b)];
+    [this.a, this.b] = [image('a', this.a), image('b', this.b)];
     this.setStops(number('e', this.stops()));
     if (wanted.get('tone') in curves)
       this.curve = wanted.get('tone');
@@ -253,7 +253,7 @@ class Viewer {
       [this.x, this.y] = [this.x + step * moves[0], this.y + step * moves[1]];
       this.fitted = false;
     } else if (event.key === 'ArrowLeft' || event.key === 'ArrowRight')
-      this.choose((this.a + moves[0] + this.pictures.length) % this.pictures.length);
+      this.choose((this.a + moves[0] + this.images.length) % this.images.length);
     else if (event.key === ' ')
       [this.a, this.b] = [this.b, this.a];
     else if (event.key === 'e' || event.key === 'E')
@@ -269,7 +269,7 @@ class Viewer {
     event.preventDefault();
     this.draw();
   }
-  // A place of the canvas in pixels of the picture.
+  // Converts a position on the canvas to pixels of the image.
   placeOf(event) {
     const box = this.canvas.getBoundingClientRect(), scale = this.canvas.width / box.width;
     const px = (event.clientX - box.left) * scale, py = (event.clientY - box.top) * scale;

@@ -1,4 +1,4 @@
-// A picture that is still being rendered: asks the program for what is new and shows it in a viewer.
+// Shows an image in a viewer while the program renders it.
 'use strict';
 class Live {
   constructor(figure) {
@@ -38,12 +38,12 @@ class Live {
   tell() {
     const {what, known, ended, share} = this.state;
     this.share.value = ended ? 1 : share;
-    if (this.viewer === undefined) // there is no picture yet
+    if (this.viewer === undefined) // no image yet
       this.figure.textContent = ended || `${what} ...`;
     this.say([ended || `${what}: ${(100 * share).toFixed(0)} %`, known].filter(text => text !== '').join(ended ? ' ' : '; '));
     document.title = ended || `${(100 * share).toFixed(0)} % ${document.querySelector('h1').textContent}`;
   }
-  // Asks for the layers that are seen, or for all, and draws them.
+  // Requests the visible layers, or all, and draws them.
   async take(all) {
     const {width, height, layers} = this.state;
     this.version = this.state.version;
@@ -53,18 +53,18 @@ class Live {
     const viewer = this.viewer, seen = viewer.mode === 'side' || all ? layers.map((_, i) => i)
       : [...new Set(viewer.mode === 'flip' ? [viewer.a] : [viewer.a, viewer.b])];
     for (const i of seen)
-      viewer.pictures[i] = await unpack(await this.fetchJson(`picture/${i}`));
+      viewer.images[i] = await unpack(await this.fetchJson(`image/${i}`));
     viewer.cache.clear();
     viewer.draw();
     this.figure.dataset.version = this.version;
   }
   begin(width, height, layers) {
-    if (this.viewer !== undefined && this.viewer.pictures.length === layers.length)
+    if (this.viewer !== undefined && this.viewer.images.length === layers.length)
       return;
     const black = new Uint16Array(width * height);
-    const pictures = layers.map(layer => ({name: layer.name, width, height, reference: false, codes: [black, black, black]}));
+    const images = layers.map(layer => ({name: layer.name, width, height, reference: false, codes: [black, black, black]}));
     this.figure.replaceChildren();
-    this.viewer = viewers[0] = new Viewer(this.figure, 0, pictures);
+    this.viewer = viewers[0] = new Viewer(this.figure, 0, images);
     this.viewer.a = this.viewer.b = 0;
     const button = (text, title, act) => {
       const made = document.createElement('button');
@@ -84,8 +84,8 @@ class Live {
       choice.addEventListener('click', () => this.take(false).catch(() => {}));
     goToAddress();
   }
-  // Dragging turns the camera where the button is pressed, or with the shift key; two fingers or the wheel change its distance.
-  // The program is told what has been turned since the last time, and renders anew.
+  // Dragging turns the camera in its mode or with the shift key; two fingers or the wheel change its distance.
+  // Sends the program the rotation since the last time; it renders again.
   addTurning(button) {
     const fingers = new Map(), canvas = this.viewer.canvas;
     const turn = button('Turn', 'dragging turns the camera', () => {
@@ -158,13 +158,13 @@ class Live {
   async saveExr() {
     if (this.figure.dataset.ended === undefined)
       await this.take(true);
-    this.save(new Blob([exrFile(this.state.layers, this.viewer.pictures)]), this.name('.exr'));
+    this.save(new Blob([exrFile(this.state.layers, this.viewer.images)]), this.name('.exr'));
   }
 }
 // An OpenEXR file of half floats without compression: one part, one line after the other, channels by their names.
-function exrFile(layers, pictures) {
-  const {width, height} = pictures[0];
-  const channels = layers.flatMap((layer, l) => layer.channels.map((name, c) => ({name, plane: pictures[l].codes[c]})))
+function exrFile(layers, images) {
+  const {width, height} = images[0];
+  const channels = layers.flatMap((layer, l) => layer.channels.map((name, c) => ({name, plane: images[l].codes[c]})))
     .sort((a, b) => a.name < b.name ? -1 : 1);
   const head = [], bytes = (...values) => head.push(...values), text = t => bytes(...new TextEncoder().encode(t), 0);
   const number = value => bytes(...new Uint8Array(new Int32Array([value]).buffer));
@@ -175,7 +175,7 @@ function exrFile(layers, pictures) {
   attribute('channels', 'chlist', channels.reduce((sum, c) => sum + new TextEncoder().encode(c.name).length + 17, 1));
   for (const channel of channels) {
     text(channel.name);
-    for (const value of [1, 0, 1, 1]) // half, not linear in perception, every column and line
+    for (const value of [1, 0, 1, 1]) // pixel type half, pLinear 0, sampling 1 in x and y
       number(value);
   }
   bytes(0);
