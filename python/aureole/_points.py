@@ -318,7 +318,7 @@ class _Rows(Rebuilt):
             raise IndexError("indices must be an integer, a slice or a list of integers")
         rows = np.array([operator.index(i) + self.size * (i < 0) for i in indices], dtype=object)
         for row in rows[(rows < 0) | (rows >= self.size)][:1]:
-            raise IndexError(f"there is no point {row} of {self.size}")
+            raise IndexError(f"point {row} is outside of the {self.size} points")
         found = np.empty((len(rows), self.dimension))
         order = np.argsort(rows, kind="stable")
         for run in np.split(order, np.flatnonzero(np.diff(rows[order]) > 64) + 1) if len(rows) else ():
@@ -332,7 +332,7 @@ class _Rows(Rebuilt):
 
     def __array__(self, dtype: Optional[DTypeLike] = None, copy: Optional[bool] = None) -> np.ndarray:
         if copy is False:
-            raise ValueError("the points are made when they are asked for: copy=False cannot be")
+            raise ValueError("points are computed on request: copy=False is not possible")
         return np.asarray(self.points(), dtype=dtype)
 
 

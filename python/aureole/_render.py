@@ -274,7 +274,7 @@ def _wrap(picture: Union[ArrayLike, Path]) -> tuple[Any, Any]:
     if array.ndim == 2:
         array = array[:, :, np.newaxis]
     if array.ndim != 3:
-        raise ArgumentError(f"a picture must have the shape (height, width, channels), not {array.shape}")
+        raise ArgumentError(f"an image must have the shape (height, width, channels), not {array.shape}")
     height, width, channels = array.shape
     library.call(library.lib.aur_image_wrap, width, height, channels, library.output(array, "float"), image)
     return library.own("image", image), array

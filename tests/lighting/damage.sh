@@ -96,13 +96,13 @@ warned "check the units of the scene" irradiance mm.rad --lamp lamp.ies@2,2,3 --
 refused "a larger spacing expected" irradiance mm.rad --grid floor:.5@.8 --sky uniform -n 16
 warned "is in the sea" irradiance room.rad --sky cie-clear --date 2026-06-21T12:00 --location 0,0,0 --sensors desk.pts -n 16
 sed '1s/48\.0000,11\.0000/0.0000,0.0000/' days.epw >sea.epw
-warned "in the sea: the file has no place" irradiance room.rad --weather sea.epw --sensors desk.pts -n 16
+warned "in the sea: the file has no location" irradiance room.rad --weather sea.epw --sensors desk.pts -n 16
 awk -F, -v OFS=, 'NR > 8 { $14 = $15 = $16 = 0 } 1' days.epw >dark.epw
 warned "see no light at all" irradiance room.rad --weather dark.epw --sensors desk.pts -n 16
 sed '$s/.*/0 0 0/' lamp.ies >dark.ies
 printf "1000 2000 800 0 0 1\n" >mm.pts
 warned "mm.pts:1: 1 of 1 sensors are more than ten times the size of the scene away" irradiance room.rad --sky uniform --sensors mm.pts -n 16
-refused "the lamp gives no light" irradiance room.rad --lamp dark.ies@2,2,3 --sensors desk.pts
+refused "the luminaire emits no light" irradiance room.rad --lamp dark.ies@2,2,3 --sensors desk.pts
 
 # --- what rtrace -h -I writes
 "$aureole" irradiance room.rad --sky uniform --sensors - --to rtrace -n 16 <desk.pts >rtrace.txt

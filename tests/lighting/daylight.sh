@@ -155,7 +155,7 @@ refused "begin.epw:1: an EPW file begins with LOCATION,CITY" $yard begin.epw
 refused "latitude.epw:1: the latitude (field 7) must be a number from -90 to 90, not '98'" $yard latitude.epw
 refused "periods.epw:8: the number of records an hour (field 3) must divide 60, not 7" $yard periods.epw
 refused "negative.epw:21: the direct normal irradiance (field 15) must be from 0 to 2000 W/m^2" $yard negative.epw
-refused "sunny.epw:21: the direct normal irradiance (field 15) must be from 0 to 2000 W/m^2, the most that there is sun, or 9999" $yard sunny.epw
+refused "sunny.epw:21: the direct normal irradiance (field 15) must be from 0 to 2000 W/m^2, or 9999" $yard sunny.epw
 refused "words.epw:21: the direct normal irradiance (field 15) must be a number" $yard words.epw
 refused "short.epw:21: the line ends before the diffuse horizontal irradiance, its field 16" $yard short.epw
 refused "lost.epw:30: hours must follow each other: 1-1, hour 23 does not follow 1-1, hour 21" $yard lost.epw
@@ -165,10 +165,10 @@ refused "empty.epw: an EPW file begins with" $yard empty.epw
 refused "zero.epw:1: a zero byte" $yard zero.epw
 refused "no.epw" $yard no.epw
 sed 's/,Sunday,/,Someday,/' mixed.epw >day.epw
-refused "does not tell on which day of the week" $yard day.epw --weekdays
+refused "does not state on which day of the week" $yard day.epw --weekdays
 edited unknown.epw 21 "s/$direct,[^,]*/\19999,9999/"
 "$aureole" irradiance $yard unknown.epw --up 0,0,1 -o unknown.csv 2>&1 |
-  grep -qF 'unknown.epw:21: 1 hours of daylight are not known' || fail "an hour that is not known"
+  grep -qF 'unknown.epw:21: 1 hours of daylight are missing' || fail "an hour that is not known"
 
 # The same weather written otherwise is the same year, and how it was written is said.
 head -8 whole.epw >head.epw
@@ -190,7 +190,7 @@ same blanks.epw
 sed 's/$/\r/' whole.epw >lines.epw
 same lines.epw
 awk -F, -v OFS=, 'NR > 8 && $14 + $15 + $16 == 0 { $14 = -1; $15 = "-0.5"; $16 = -1 } { print }' whole.epw >nights.epw
-same nights.epw "irradiances are below 0, and taken for 0"
+same nights.epw "irradiances below 0 are read as 0"
 grep -q "nights.epw:9: [0-9]* irradiances" said || fail "the first night: $(cat said)"
 awk -F, -v OFS=, 'NR > 8 { $4 -= 1 } { print }' whole.epw >zero.epw
 same zero.epw "hours are counted from 0 to 23"
@@ -198,7 +198,7 @@ same zero.epw "hours are counted from 0 to 23"
 sed 's/^DATA PERIODS,1,1/DATA PERIODS,1,4/' head.epw >quarters.epw
 awk -F, -v OFS=, '{ s = $15; d = $16; g = $14; for (k = 1; k <= 4; ++k) { f = k % 2 ? 1.5 : .5; $5 = 15 * k; $14 = g * f; $15 = s * f; $16 = d * f; print } }' \
   hours.epw >>quarters.epw
-same quarters.epw "4 records an hour are taken for their mean"
+same quarters.epw "4 records per hour are averaged"
 sed '8s/,1,4,/,1,1,/' quarters.epw >unsaid.epw
 refused "unsaid.epw:10: hours must follow each other, with as many records as the line DATA PERIODS gives" $yard unsaid.epw
 sed 40d quarters.epw >gap.epw
@@ -222,7 +222,7 @@ near "both halves" "$(awk "BEGIN { printf \"%.9g\", $(cell annual_lux_hours 2 la
 refused "more than a year" $yard long.epw
 # An empty field is not known, and of three irradiances two tell the third.
 awk -F, -v OFS=, 'NR > 8 { $14 = "" } { print }' whole.epw >empty-fields.epw
-same empty-fields.epw "8760 fields are empty, and taken for not known"
+same empty-fields.epw "8760 empty fields are read as missing"
 
 # What a file says twice and not the same is warned of, with the first line; each edit leaves a valid file.
 warned() { # warned FILE WORDS
@@ -233,7 +233,7 @@ year whole.epw
 ! grep warning said || fail "whole.epw: $(cat said)"
 balance="global irradiance is not direct irradiance times the sine of the sun's height plus diffuse"
 sed '1s/,1.0,100/,-7.0,100/' whole.epw >zone.epw
-warned zone.epw "zone.epw:1: the time zone -7 is 7.7 hours from that of the longitude 11"
+warned zone.epw "zone.epw:1: the time zone -7 differs by 7.7 hours from that of the longitude 11"
 warned zone.epw "there is light with the sun below the horizon"
 sed '1s/,48.0000,/,-48.0000,/' whole.epw >south.epw
 warned south.epw "$balance"

@@ -47,7 +47,7 @@ printf 'name,reflectance\nfloor,.5\n*,.1\nfloor,.6\n' >bad.csv
 refused "bad.csv:4: a second line of this name (floor)" room.obj --group --surfaces bad.csv
 refused "bad.csv:2: the rows of a mesh have names with --group only (floor)" room.obj --surfaces bad.csv
 printf 'name,reflectance\nfloor,.5\n' >bad.csv
-refused "no line is of row 1, rest of it" room.obj --group --surfaces bad.csv
+refused "row 1, rest of it has no line" room.obj --group --surfaces bad.csv
 refused "none.csv: cannot read: No such file" room.obj --surfaces none.csv
 mkfifo pipe
 refused "it is a pipe" room.obj --surfaces pipe

@@ -61,8 +61,8 @@ described lamp.ies IES_LM-63 quadrants $(awk 'BEGIN { pi = atan2(0, -1); printf 
 head -20 panel.ldt >half.ldt
 refused "half.ldt:20:" info half.ldt
 
-refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies
-refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
+refused "must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies
+refused "must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
 refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
 refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts
@@ -120,7 +120,7 @@ same ball.rad ball.ies@0,0,2
 sed 's/src_phi4/src_other/' rectangle.rad >bad.rad
 refused "its modifier must be 'void', not 'd'" irradiance open.rad bad.rad --sensors about.pts
 sed 's/polygon.*/sphere p 0 0 4 0 0 0 1/' rectangle.rad >bad.rad
-refused "a measured lamp is read on a polygon" irradiance open.rad bad.rad --sensors about.pts
+refused "a measured luminaire is read on a polygon" irradiance open.rad bad.rad --sensors about.pts
 head -c 20 rectangle.dat >short.dat && sed 's/rectangle.dat/short.dat/' rectangle.rad >bad.rad
 refused "'short.dat':4: a table of 2 dimensions expected" irradiance open.rad bad.rad --sensors about.pts
 finish

@@ -145,6 +145,6 @@ rugs 2e-6 75 500000.25 5200000.5 '<bsdf type="null"/>' 3.14159265
 disk='<shape type="disk"><transform name="to_world"><scale value="1"/></transform></shape>'
 echo "<scene version=\"3.0.0\"><emitter type=\"constant\"/>$disk${disk/value=\"1/value=\".5}</scene>" >disks.xml
 printf '.8 0 0 0 0 1\n.1 .1 0 0 0 1\n' >disks.pts
-"$aureole" irradiance disks.xml --sensors disks.pts -n 64 2>&1 | grep -qF 'disks.pts:2: 1 of 2 sensors stand where surfaces are nearer to each other than numbers tell (the first is sensor 1)' ||
+"$aureole" irradiance disks.xml --sensors disks.pts -n 64 2>&1 | grep -qF 'disks.pts:2: 1 of 2 sensors lie where surfaces are closer than the rounding of coordinates (the first is sensor 1)' ||
   fail "no warning of two disks in one place"
 finish

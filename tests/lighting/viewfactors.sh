@@ -65,7 +65,7 @@ XML
 "$aureole" viewfactors scene.xml --radiosity 0.5 --matrix-free -q >free.csv || fail "matrix-free"
 paste -d, matrix.csv free.csv | awk -F, 'NR > 1 && ($4 - $9) ^ 2 > .0004 { bad = 1 } END { exit bad || NR != 15 }' ||
   fail "radiosities with and without the matrix: $(paste -d, matrix.csv free.csv)"
-refused "no row sees the sky" room.obj --radiosity 0.5
+refused "no light: no row sees the sky" room.obj --radiosity 0.5
 # The sun alone, in the zenith: the house shades .36 of the ground's 4, and gives a little of its light back.
 "$aureole" viewfactors scene.xml --group --radiosity 0.5 --sun 0,0,4 --matrix-free -q >sun.csv || fail "sun"
 awk -F, 'NR == 2 && $4 > 4 * .5 * (4 - .36) / 4 - .05 && $4 < 4 * .5 * (4 - .36) / 4 + .15 && $5 > 0 && $5 < .02 { good = 1 }

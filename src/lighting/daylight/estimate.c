@@ -240,13 +240,14 @@ static void warn(const work *w) {
     const aur_warnings *const to = &w->options->warnings;
     const aur_lit_hours *const lit = &w->lit;
     if (w->trace.sky.removed_lights > 0)
-        aur_warn_at(to, (aur_location){.file = NULL},
-                    "%zu lamps of the scene are left out: a year of weather is light of the sky and the sun",
-                    w->trace.sky.removed_lights);
+        aur_warn_at(
+            to, (aur_location){.file = NULL},
+            "%zu light sources of the scene are left out: daylight comes only from the sky and the sun",
+            w->trace.sky.removed_lights);
     if (lit->unknown > 0)
         aur_warn_at(
             to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_unknown].line},
-            "%zu hours of daylight are not known (the first is here): they do not count", lit->unknown);
+            "%zu hours of daylight are missing (the first is here): they do not count", lit->unknown);
     if (lit->other_skies > 0)
         aur_warn_at(
             to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_other].line},

@@ -77,7 +77,7 @@ aur_result aur_weather_sun(const aur_weather_view *weather, size_t index, double
     if (hour->month < 1 || hour->month > 12 || hour->day < 1 || hour->day > 31 || hour->hour < 1 ||
         hour->hour > 24 || !aur_weather_days(hour, &days))
         return aur_fail_at(error, place_of(weather, index), AUR_ERROR_ARGUMENT,
-                           "there is no day %d-%d-%d with an hour %d", hour->year, hour->month, hour->day,
+                           "unknown date %d-%d-%d with hour %d", hour->year, hour->month, hour->day,
                            hour->hour);
     size_t count = 0;
     for (size_t i = 0; i < PIECES; ++i) {
@@ -250,7 +250,7 @@ aur_result aur_weather_check(const aur_weather_view *weather, aur_error *error) 
                    fabs(weather->timezone) <= 14.0
                ? AUR_OK
                : aur_fail(error, AUR_ERROR_ARGUMENT,
-                          "the place of the weather is none on earth: latitude %g must be within 90, "
+                          "the location of the weather is not on earth: latitude %g must be within 90, "
                           "longitude %g within 180 and the time zone %g within 14",
                           weather->latitude, weather->longitude, weather->timezone);
 }
@@ -267,7 +267,7 @@ static aur_result check(const aur_weather_view *weather, const aur_daylight_opti
                         options->schedule_count, weather->count);
     if (options->weekdays && !(weather->first_weekday >= 0 && weather->first_weekday < 7))
         return aur_fail_at(error, (aur_location){.file = weather->file}, AUR_ERROR_UNSUPPORTED,
-                           "the weather does not tell on which day of the week its year begins");
+                           "the weather does not state on which day of the week its year begins");
     return AUR_OK;
 }
 

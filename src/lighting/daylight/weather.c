@@ -188,8 +188,7 @@ static aur_result read_irradiance(const reader *r, size_t index, const char *wha
     }
     if (*value < 9999.0)
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
-                           "%s (field %zu) must be from 0 to 2000 W/m^2, the most that there is sun, or 9999 "
-                           "where it is not known, not %g",
+                           "%s (field %zu) must be from 0 to 2000 W/m^2, or 9999 if it is missing, not %g",
                            what, index + 1, *value);
     *value = NAN;
     return AUR_OK;

@@ -81,12 +81,12 @@ static void warn_of_note(const aur_weather_view *weather, const aur_weather_note
 
 static void warn_of_form(const aur_weather_view *weather, const aur_warnings *warnings) {
     const aur_location file = {.file = weather->file};
-    warn_of_note(weather, &weather->negative, "irradiances are below 0, and taken for 0", warnings);
-    warn_of_note(weather, &weather->empty, "fields are empty, and taken for not known", warnings);
+    warn_of_note(weather, &weather->negative, "irradiances below 0 are read as 0", warnings);
+    warn_of_note(weather, &weather->empty, "empty fields are read as missing", warnings);
     if (weather->from_zero)
-        aur_warn_at(warnings, file, "hours are counted from 0 to 23: hour 0 is taken for the first of a day");
+        aur_warn_at(warnings, file, "hours are counted from 0 to 23: hour 0 is read as the first of a day");
     if (weather->records > 1)
-        aur_warn_at(warnings, file, "%d records an hour are taken for their mean", weather->records);
+        aur_warn_at(warnings, file, "%d records per hour are averaged", weather->records);
     if (weather->count < 8760)
         aur_warn_at(warnings, file, "the file has %zu of a year's 8760 hours: sums and shares are of these",
                     weather->count);
@@ -97,11 +97,11 @@ void aur_weather_warn(const aur_weather_view *weather, const aur_warnings *warni
     warn_of_form(weather, warnings);
     if (weather->latitude == 0.0 && weather->longitude == 0.0)
         aur_warn_at(warnings, (aur_location){.file = weather->file, .line = 1},
-                    "the place is 0 degrees north and 0 east, in the sea: the file has no place");
+                    "the location is 0 degrees north and 0 east, in the sea: the file has no location");
     const double off = remainder(weather->timezone - weather->longitude / 15.0, 24.0);
     if (fabs(off) > HOURS)
         aur_warn_at(warnings, (aur_location){.file = weather->file, .line = 1},
-                    "the time zone %g is %.1f hours from that of the longitude %g: east is positive",
+                    "the time zone %g differs by %.1f hours from that of the longitude %g: east is positive",
                     weather->timezone, fabs(off), weather->longitude);
     tally balance = {0}, night = {0}, day = {0};
     check_hours(weather, &balance, &night, &day);

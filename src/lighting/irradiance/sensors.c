@@ -68,7 +68,7 @@ void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
                     on_surfaces->count, sensors->count, on_surfaces->first);
     if (odd->doubtful.count > 0)
         aur_warn_at(to, aur_sensor_location(sensors, odd->doubtful.first),
-                    "%zu of %zu sensors stand where surfaces are nearer to each other than numbers tell (the "
+                    "%zu of %zu sensors lie where surfaces are closer than the rounding of coordinates (the "
                     "first is sensor %zu): their light may be that above a cover or below it",
                     odd->doubtful.count, sensors->count, odd->doubtful.first);
     if (inside->count > 0)

@@ -119,6 +119,6 @@ aur_result aur_sensor_table_write(const char *path, const char *format, const au
         formats[i].write(table, writer.stream);
         return aur_file_commit(&writer, error);
     }
-    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': csv, json, npy, ply and rtrace are known",
+    return aur_fail(error, AUR_ERROR_NAME, "unknown format '%s': expected csv, json, npy, ply or rtrace",
                     format);
 }

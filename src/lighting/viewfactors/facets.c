@@ -71,7 +71,7 @@ static aur_result take_vs3_groups(aur_facets *facets, aur_vs3 *from, aur_error *
     const size_t shapes = facets->scene->shape_count;
     if (shapes != from->shape_count)
         return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT,
-                           "%zu of %zu surfaces are there", shapes, from->shape_count);
+                           "%zu surfaces expected (found %zu)", from->shape_count, shapes);
     for (size_t i = 0, facet = 0, source = 0; i < shapes; ++i) {
         const aur_mesh *const mesh = &facets->scene->shapes[i]->mesh;
         for (size_t k = 0; k < mesh->triangle_count; ++k)
@@ -99,7 +99,7 @@ static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
                                shape->descriptor->row.name);
         if (shape->grouped)
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
-                               "shape '%s' stands in a shape group, whose copies have no facets of their own",
+                               "shape '%s' is in a shape group: its instances have no facets",
                                shape->descriptor->row.name);
     }
     return AUR_OK;
@@ -113,7 +113,8 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
         facets->source_count += triangles_of(&scene->shapes[i]->mesh);
     }
     if (facets->count == 0)
-        return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT, "no facet is here");
+        return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT,
+                           "no facet in this file");
     if (facets->count > UINT32_MAX / 4)
         return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_UNSUPPORTED,
                            "%zu facets are too many: 2^30 is the most", facets->count);

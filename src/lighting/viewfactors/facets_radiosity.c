@@ -291,7 +291,7 @@ aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_facto
     if (result == AUR_OK)
         result = solve(&s, solved.half_widths != NULL || solved.incoming_half_widths != NULL, error);
     if (result == AUR_OK && !(mean(&s, s.total) + mean(&s, s.emissions) > 0.0))
-        result = aur_fail(error, AUR_ERROR_ARGUMENT, "no row sees the sky or the sun: there is no light");
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "no light: no row sees the sky or the sun");
     if (result == AUR_OK)
         write(&s, aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence), &solved);
     for (size_t i = 0; i < s.level_count; ++i)

@@ -132,5 +132,6 @@ aur_result aur_view_factors_write(const aur_view_factors *factors, const char *f
         formats[i].write(factors, writer.stream);
         return aur_file_commit(&writer, error);
     }
-    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': npz, csv, view3d and udales are known", format);
+    return aur_fail(error, AUR_ERROR_NAME, "unknown format '%s': expected npz, csv, view3d or udales",
+                    format);
 }

@@ -239,7 +239,7 @@ aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs
     while (result == AUR_OK && next_line(&self) && (self.line.words[0][0] & ~32) != 'E')
         result = read_line(&self);
     if (result == AUR_OK && self.surface_count == 0)
-        result = fail(&self, self.line.number, AUR_ERROR_FORMAT, "no surface (S) is here");
+        result = fail(&self, self.line.number, AUR_ERROR_FORMAT, "no surface (S) in this file");
     if (result == AUR_OK)
         result = write_scene(&self);
     free(self.vertices);

@@ -22,7 +22,7 @@ aur_result aur_options_read(const void *given, size_t library_size, void *librar
     for (size_t i = library_size; i < size; ++i)
         if (bytes[i] != 0)
             return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                            "%s: byte %zu of the struct is set, and this library, %s, knows %zu bytes", what,
+                            "%s: byte %zu of the struct is set, but this library, %s, reads %zu bytes", what,
                             i, aur_version(), library_size);
     memcpy(library, given, size < library_size ? size : library_size);
     memcpy(library, &library_size, sizeof library_size);

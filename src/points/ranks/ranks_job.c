@@ -135,8 +135,8 @@ aur_result aur_ranks_join(aur_error *error) {
         return result;
     if (transport.count != started)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "started with %zu ranks by a launcher that this MPI does not know: it sees %zu",
-                        started, transport.count);
+                        "started with %zu ranks by a launcher of another MPI: this one sees %zu", started,
+                        transport.count);
     return aur_ranks_join_by(&transport, error);
 }
 

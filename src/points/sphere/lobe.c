@@ -66,7 +66,7 @@ aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) {
         return aur_lobe_check(lobe, error);
     }
     return aur_fail(error, AUR_ERROR_NAME,
-                    "'%s' is no lobe; it must be uniform, cosine, phong:M, ggx:ALPHA[:VIEW_DEGREES] or "
+                    "unknown lobe '%s': expected uniform, cosine, phong:M, ggx:ALPHA[:VIEW_DEGREES] or "
                     "visible:ALPHA[:VIEW_DEGREES]",
                     text);
 }

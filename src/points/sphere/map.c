@@ -82,7 +82,7 @@ void aur_point_from_cap(aur_map map, double height, const double direction[3], d
 
 static aur_result check(aur_map map, double height, aur_error *error) {
     if ((size_t)map >= NAME_COUNT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no map %d", (int)map);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown map %d", (int)map);
     if (!(height > 0.0 && height <= 2.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the height of a cap must be above 0 and at most 2, not %g", height);

@@ -105,7 +105,7 @@ aur_result lab_write_paper(const char *results, const char *folder, const lab_pa
     }
     if (found == 0)
         return aur_fail(error, AUR_ERROR_OPEN,
-                        "%s: no results of the lab are there: 'aureole lab run NAME -o %s' makes them",
-                        results, results);
+                        "%s: no results of the lab: 'aureole lab run NAME -o %s' makes them", results,
+                        results);
     return result;
 }

@@ -204,8 +204,8 @@ aur_result lab_publish(const char *results, const char *folder, bool small,
         found += publication_has(&p, lab_experiment_at(i));
     if (found == 0)
         return aur_fail(error, AUR_ERROR_OPEN,
-                        "%s: no results of the lab are there: 'aureole lab run --all -o %s' makes them",
-                        results, results);
+                        "%s: no results of the lab: 'aureole lab run --all -o %s' makes them", results,
+                        results);
     p.page = open_memstream(&text, &size);
     if (p.page == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");

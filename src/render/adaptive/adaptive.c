@@ -32,8 +32,7 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be from .5 to .9999, not %g",
                         target->confidence);
     if ((size_t)target->measure >= AUR_ERROR_MEASURE_COUNT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no error measure number %d",
-                        (int)target->measure);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown error measure %d", (int)target->measure);
     if (target->replicas == 0)
         target->replicas = 4;
     if (target->replicas < 3 || target->replicas > AUR_REPLICAS_MAX)
@@ -165,7 +164,7 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
                                         adaptive->target.rays > 0);
     if (adaptive->open && adaptive->target.bias > 0.0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "a bias of %g: it goes with an integrator that is named, else it is measured",
+                        "a bias of %g: it needs a named integrator; otherwise it is measured",
                         adaptive->target.bias);
     const double square = adaptive->target.bias * adaptive->target.bias;
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
@@ -317,7 +316,7 @@ aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_re
 aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index, aur_adaptive_candidate *out,
                                       aur_error *error) {
     if (index >= AUR_RACE_ROWS || adaptive->race.order_count == 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no candidate %zu", index);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown candidate %zu", index);
     const aur_race_entry *const entry = &adaptive->race.entries[index];
     aur_adaptive_candidate local = {.name = aur_race_name(index),
                                     .taken = index == adaptive->row,
@@ -343,9 +342,8 @@ aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_i
 
 aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half, aur_image **image,
                                      aur_error *error) {
-    return half < 2
-               ? aur_replicas_develop(&adaptive->candidate.replicas, half, 2, true, image, error)
-               : aur_fail(error, AUR_ERROR_ARGUMENT, "there is no half %zu: 0 and 1 are the halves", half);
+    return half < 2 ? aur_replicas_develop(&adaptive->candidate.replicas, half, 2, true, image, error)
+                    : aur_fail(error, AUR_ERROR_ARGUMENT, "unknown half %zu: expected 0 or 1", half);
 }
 
 aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive, const aur_image *const processed[2],

@@ -74,8 +74,7 @@ static size_t word_count(const aur_adaptive *adaptive) {
 aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
     const aur_candidate *const candidate = &adaptive->candidate;
     if (adaptive->identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "only an image whose options say 'resumable' can be saved");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image with the option 'resumable' can be saved");
     if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
     const size_t count = word_count(adaptive);
@@ -142,7 +141,8 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
 
 aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error) {
     if (adaptive->identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image whose options say 'resumable' can go on");
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "only an image with the option 'resumable' can be continued");
     aur_checkpoint checkpoint;
     aur_result result = aur_checkpoint_load(path, false, &checkpoint, error);
     if (result == AUR_OK && checkpoint.film_count < 2)

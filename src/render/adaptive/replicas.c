@@ -287,7 +287,7 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"},
                              *const taken[] = {AUR_CLAMPED_CHANNEL, "clamped.G", "clamped.B"};
     if (replicas->pixel_count == 0) /* while they are being created */
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "no image yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t main_channels = errors ? 6 : 3,
                  channels = main_channels + (aur_replicas_clamp(replicas) ? 3 : 0);

@@ -6,7 +6,7 @@
 aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error) {
     const char *const identity = aur_render_identity(render);
     if (identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a render is saved whose options say 'resumable'");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "only a render with the option 'resumable' can be saved");
     uint64_t words[AUR_SPENT_WORDS];
     aur_render_put_spent(render, words);
     const aur_film *const film = aur_render_film(render);
@@ -16,7 +16,8 @@ aur_result aur_render_save(const aur_render *render, const char *path, aur_error
 aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error) {
     const char *const identity = aur_render_identity(render);
     if (identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a render goes on whose options say 'resumable'");
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "only a render with the option 'resumable' can be continued");
     aur_checkpoint checkpoint;
     aur_result result = aur_checkpoint_load(path, false, &checkpoint, error);
     if (result == AUR_OK)

@@ -354,7 +354,7 @@ static void warn_of_losses(const aur_render *render) {
     if (1000 * counted->cut > MOST_CUT_PATHS * counted->samples)
         aur_warn_at(warnings, (aur_location){0},
                     "%llu paths of %llu samples were cut after many mirrors, hidden lights or null "
-                    "collisions in a row: what they would still bring is missing",
+                    "collisions in a row: their further light is missing",
                     (unsigned long long)counted->cut, samples);
 }
 

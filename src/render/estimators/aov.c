@@ -195,7 +195,7 @@ static aur_result create_nested(const aur_parameters *parameters, const aur_para
     aur_parameters_release(&nested);
     if (result == AUR_OK && data->nested->descriptor->radiance == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "integrator 'aov': '%s' treats pixels together and cannot stand inside",
+                           "integrator 'aov': '%s' renders pixels jointly and cannot be inside",
                            data->nested->descriptor->row.name);
     return result;
 }

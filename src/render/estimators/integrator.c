@@ -82,7 +82,7 @@ static aur_result make_options(const aur_gather_integrator *gather, aur_integrat
     const size_t size = gather->settings_size > least ? gather->settings_size : least;
     for (size_t i = 0; i < gather->row.key_count; ++i)
         if (gather->row.keys[i].offset + gather->row.keys[i].size > size)
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "integrator '%s': '%s' is no field of its settings",
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "integrator '%s': unknown field '%s' of its settings",
                             gather->row.name, gather->row.keys[i].name);
     integrator->gather = gather;
     free(integrator->data);

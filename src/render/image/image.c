@@ -191,7 +191,7 @@ aur_result aur_image_select(const aur_image *image, size_t count, const char *co
         if (c == SIZE_MAX) {
             char list[512];
             aur_image_list_channels(image, sizeof list, list);
-            result = aur_fail(error, AUR_ERROR_NAME, "there is no channel '%s', only %s", names[i], list);
+            result = aur_fail(error, AUR_ERROR_NAME, "unknown channel '%s': expected %s", names[i], list);
             aur_image_destroy(created);
             return result;
         }

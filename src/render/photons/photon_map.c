@@ -187,7 +187,7 @@ void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warni
         aur_warn_at(
             warnings, (aur_location){0},
             "photon map: %llu of %llu particles were cut after %d edges: surfaces absorb (nearly) nothing, "
-            "and what those particles would still bring is missing",
+            "and the further light of those particles is missing",
             (unsigned long long)cut, (unsigned long long)paths, LONGEST_PATH);
 }
 

@@ -169,8 +169,8 @@ static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity
             continue;
         aur_warn_at(
             warnings, location,
-            "radiosity: triangle %zu of this shape has an albedo of %g: what is cut off after the last "
-            "bounce has no bound unless it is below 1",
+            "radiosity: triangle %zu of this shape has an albedo of %g: the light after the last bounce "
+            "is bounded only below 1",
             i - first, (double)albedo);
         return;
     }

@@ -171,10 +171,9 @@ static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, po
     for (size_t r = points->skipped > 0 ? 0 : 1; r < points->count && result == AUR_OK; ++r)
         result = make_set(radiosity, r, most + points->skipped, &points->sets[r], error);
     if (result == AUR_OK && radiosity->paths > 0 && !aur_set_find(radiosity->sequence)->extensible)
-        result =
-            aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                     "radiosity: '%s' cannot be continued: its first points depend on how many there are",
-                     radiosity->sequence);
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                          "radiosity: '%s' cannot be continued: its first points depend on their number",
+                          radiosity->sequence);
     if (result == AUR_OK && points->count > 1)
         result = check_randomized(radiosity, points, error);
     if (result != AUR_OK)

@@ -13,7 +13,7 @@ static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity
                         rule->epsilon);
     if (radiosity->paths % rule->interval != 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "radiosity: %" PRIu64 " paths are no multiple of the interval of %" PRIu64,
+                        "radiosity: %" PRIu64 " paths are not a multiple of the interval of %" PRIu64,
                         radiosity->paths, rule->interval);
     if (rule->limit <= radiosity->paths)
         return aur_fail(error, AUR_ERROR_ARGUMENT,

@@ -8,10 +8,9 @@ aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error) {
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
                                "shape '%s' is not a mesh of triangles", shape->descriptor->row.name);
         if (shape->grouped)
-            return aur_fail_at(
-                error, shape->location, AUR_ERROR_UNSUPPORTED,
-                "shape '%s' stands in a shape group, whose copies have no triangles of their own",
-                shape->descriptor->row.name);
+            return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
+                               "shape '%s' is in a shape group: its instances have no triangles",
+                               shape->descriptor->row.name);
     }
     for (size_t i = 0; i < scene->emitter_count; ++i)
         if (!aur_emitter_glows(scene->emitters[i]))

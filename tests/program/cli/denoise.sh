@@ -9,7 +9,7 @@ failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 render() { "$aureole" render "$scene" --width 40 -q "$@"; }
 AUREOLE_OIDN=$PWD/nowhere.so render -o none.exr --denoise 2>message.txt
-[ $? -eq 2 ] && grep -q -- '--denoise: the library that AUREOLE_OIDN names: .*nowhere.so' message.txt || fail "no library: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q -- '--denoise: the library in AUREOLE_OIDN: .*nowhere.so' message.txt || fail "no library: $(cat message.txt)"
 AUREOLE_OIDN=libz.so.1 render -o none.exr --denoise 2>message.txt
 [ $? -eq 2 ] && grep -q -- '--denoise: the library is not Open Image Denoise' message.txt || fail "another library: $(cat message.txt)"
 AUREOLE_OIDN=$stub render -o none.exr --denoise --shard 1/2 2>message.txt

@@ -12,7 +12,7 @@ for scene in cornell-box/cornell-box cornell-box/glossy room/room; do
   read -r true _ < <(isolated a.exr R,G,B)
   for option in --rounds --spp; do # with the limit of changes, and without
     "$aureole" render "$source/scenes/$scene.xml" -q --width 64 --integrator path "$option" 2 -o a.exr --denoise 2>message.txt || {
-      grep -q 'no Open Image Denoise is found' message.txt && { echo "Open Image Denoise is not installed"; exit 77; }
+      grep -q 'Open Image Denoise not found' message.txt && { echo "Open Image Denoise is not installed"; exit 77; }
       cat message.txt
       exit 1
     }

@@ -151,5 +151,5 @@ says 2 "a direction in each column, as FSL's bvecs" points file:bvecs0
 printf '0.6 0\n0.8 0\n0 1\n' >bvecs2
 says 2 "a direction in each column, as FSL's bvecs" info bvecs2
 { echo "0 0 0"; cat bare.txt; } >rows
-says 2 "rows:1: 0 0 0 is no direction" measure rows -m energy --domain axes
+says 2 "rows:1: 0 0 0 is not a direction" measure rows -m energy --domain axes
 exit $status

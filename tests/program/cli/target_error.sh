@@ -104,7 +104,7 @@ refuses "5min or 1h, not '3x'" --time 3x
 refuses "expected a number such as 1e9, not 'many'" --rays many
 refuses "--bias: expected 1% or .01, from above 0 to 100%, not '0'" --error 1% --integrator path --bias 0
 refuses "below the target error" --error 1% --integrator path --bias 2%
-refuses "goes with an integrator that is named" --error 1% --bias .5%
+refuses "needs a named integrator" --error 1% --bias .5%
 refuses "--samples' cannot be used with" --error 1% --spp 4
 refuses "--error-map' needs" --error-map
 

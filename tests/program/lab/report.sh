@@ -7,7 +7,7 @@ failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 rm -rf results page drawn drawing small kept ./*.html
 "$aureole" lab report nowhere -o page 2>message.txt
-[ $? -eq 2 ] && grep -q "no results of the lab are there: 'aureole lab run" message.txt || fail "no results: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q "no results of the lab: 'aureole lab run" message.txt || fail "no results: $(cat message.txt)"
 "$aureole" lab run marques-2013-gather marques-2018-gains marques-2018-slopes --quick -q --scenes "$source/scenes" -o results >run.txt 2>&1 ||
   fail "$(cat run.txt)"
 "$aureole" lab report results -o page >said.txt 2>&1 || fail "$(cat said.txt)"

@@ -101,7 +101,7 @@ expect "takes no parameters" --integrator depth:far=1
 expect "unknown kind of channel 'normals'; there are: albedo, depth" --integrator aov:aovs=a:normals
 expect "'albedo' is not of the form name:type" --integrator aov:aovs=albedo
 expect "two channels are called 'a.T'" --integrator 'aov:aovs=(a:depth,a:depth)'
-expect "'finalgather' treats pixels together" --integrator aov:integrator=finalgather
+expect "'finalgather' renders pixels jointly" --integrator aov:integrator=finalgather
 expect "did you mean 'path'" --integrator aov:integrator=pth
 expect "must be given together" --reference reference.exr
 expect "none.exr: cannot read" --reference none.exr --errors errors.csv

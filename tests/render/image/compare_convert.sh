@@ -58,7 +58,7 @@ complains "did you mean 'rmse'"
 expect 2 compare ones.pfm ones.pfm --tolerance=-1
 complains "--tolerance"
 expect 2 compare ones.pfm ones.pfm --channels Q
-complains "there is no channel 'Q', only Y"
+complains "unknown channel 'Q': expected Y"
 expect 2 compare ones.pfm ones.pfm --fast
 complains "unknown option '--fast'"
 

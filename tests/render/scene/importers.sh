@@ -150,7 +150,7 @@ cp letters inside/
 (cd inside && told letters 2 'read inside' --confine) || exit 1
 sed -i 's/^send(FAIL.*/send(MESH, mesh); send(SCENE, scene())/' inside/letters
 (cd inside && AUREOLE_IMPORT=$PWD/letters "$aureole" info model.fbx >said 2>&1) || fail "letter case is not forgiven: $(cat inside/said)"
-grep -q "2 files are found under other names: 'part.txt' as 'Part.TXT', 'C:/of/another/machine/part.txt' as 'Part.TXT'" inside/said &&
+grep -q "2 files have other spellings: 'part.txt' as 'Part.TXT', 'C:/of/another/machine/part.txt' as 'Part.TXT'" inside/said &&
   grep -q "1 file cannot be found: 'nothing.txt'" inside/said || fail "other names are not reported: $(cat inside/said)"
 
 # A signal ends the reader with the program; the reader ends with a program that is killed.

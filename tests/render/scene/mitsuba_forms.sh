@@ -27,7 +27,7 @@ refused() { # refused WORDS BODY
 spot="<emitter type='spot'><transform name='to_world'><lookat origin='0,0,3' target='0,0,0' up='0,1,0'/></transform></emitter>"
 ball="<shape type='sphere'><point name='center' x='0' y='0' z='5'/><float name='radius' value='.1'/><bsdf type='diffuse'/>"
 same "a spot in a shape" "$camera<shape type='rectangle'/>$ball$spot</shape>" "$camera<shape type='rectangle'/>$ball</shape>$spot"
-refused "emitter 'constant' cannot stand inside a shape" "$camera$ball<emitter type='constant'/></shape>"
+refused "emitter 'constant' is not allowed inside a shape" "$camera$ball<emitter type='constant'/></shape>"
 
 # The textures `scale` and `gridtexture` of 0.6; an object below the surface is refused in a line that names it.
 floor() { echo "$camera$light<shape type='rectangle'><bsdf type='diffuse'>$1</bsdf></shape>"; }
@@ -91,7 +91,7 @@ lit="<shape type='disk'><transform name='to_world'><rotate x='1' angle='180'/><t
 # 16 Sobol points in each of 64 pixels: all of them miss pi / 5 by less than 5 of a hundred.
 meters 0.62831853 0.05 "<shape type='rectangle'>$small$meter</shape>$lit" --sampler sobol
 meters 0.62831853 0.05 "<shape type='disk'>$small$meter</shape>$lit" --sampler sobol --integrator path:packets=false
-refused "it must stand inside a <shape>" "<sensor type='irradiancemeter'/>"
+refused "it must be inside a <shape>" "<sensor type='irradiancemeter'/>"
 refused "takes no 'to_world'" "<shape type='sphere'><sensor type='irradiancemeter'><transform name='to_world'/></sensor></shape>"
 
 # A texture may be called a spectrum; the shapes of a `merge` stand in its place.

@@ -248,8 +248,8 @@ renders held.glb "1 texture is left out: its image is of an unknown format: imag
 for model in no-picture.gltf format.gltf held.glb; do
   cmp -s bare.gltf.exr $model.exr || fail "$model is not as if the picture were not named"
 done
-renders letters.gltf "1 file is found under another name: 'upper.Png' as 'UPPER.PNG'"
-renders elsewhere.gltf "1 file is found under another name: 'C:/artist/Textures/upper.png' as 'UPPER.PNG'"
+renders letters.gltf "1 file has another spelling: 'upper.Png' as 'UPPER.PNG'"
+renders elsewhere.gltf "1 file has another spelling: 'C:/artist/Textures/upper.png' as 'UPPER.PNG'"
 renders strong.gltf
 cp numbers.bin 'num bers.bin'
 sed 's/"numbers.bin"/"num%20bers.bin"/' beside.gltf >'50%25.gltf'
@@ -399,7 +399,7 @@ raw='<boolean name="raw" value="true"/><string name="channel"'
 for side in scene model; do
   "$aureole" render quad-$side.xml --spp 16 -o quad-$side.exr >said 2>&1 || fail "quad-$side.xml is not rendered: $(cat said)"
 done
-grep -q "2 files are found under other names: 'materials of quads.MTL' as 'Materials of Quads.mtl', './color.PNG' as './color.png'" said ||
+grep -q "2 files have other spellings: 'materials of quads.MTL' as 'Materials of Quads.mtl', './color.PNG' as './color.png'" said ||
   fail "other names are not reported: $(cat said)"
 "$aureole" compare quad-scene.exr quad-model.exr --metric relative-rmse --tolerance 1e-6 >compared || fail "materials of an OBJ are not those of its scene: $(cat compared)"
 

@@ -100,8 +100,8 @@ refuses "only a rectangle or a disk" "<shape type='sphere'><emitter type='direct
 refuses "'eta' or 'specular', not both" \
   "<bsdf type='principled'><float name='eta' value='1.5'/><float name='specular' value='0.5'/></bsdf>"
 refuses "it needs a <sensor> inside" "" "<sensor type='batch'/>"
-refuses "cannot stand inside another" "" "<sensor type='batch'><sensor type='batch'/></sensor>"
-refuses "must stand in one medium" "" "<sensor type='batch'><sensor type='perspective'/><sensor type='perspective'>\
+refuses "cannot be inside another" "" "<sensor type='batch'><sensor type='batch'/></sensor>"
+refuses "must be in one medium" "" "<sensor type='batch'><sensor type='perspective'/><sensor type='perspective'>\
 <medium type='homogeneous'/></sensor></sensor>"
 
 # All that is not known is said at once, and before a mesh is looked for; a sensor that is left out may have what it likes.

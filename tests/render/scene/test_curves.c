@@ -158,8 +158,10 @@ static void says_what_is_wrong(void **state) {
     static const struct {
         const char *plugin, *text, *more, *words;
     } rows[] = {
-        {"linearcurve", "0 0 0 .1\n\n0 1 0 .1\n1 1 0 .1\n", "", "has 1 points; it needs 2"},
-        {"bsplinecurve", "0 0 0 .1\n1 0 0 .1\n2 0 0 .1\n", "", "has 3 points; it needs 4"},
+        {"linearcurve", "0 0 0 .1\n\n0 1 0 .1\n1 1 0 .1\n", "",
+         "a curve must have at least 2 points (found 1)"},
+        {"bsplinecurve", "0 0 0 .1\n1 0 0 .1\n2 0 0 .1\n", "",
+         "a curve must have at least 4 points (found 3)"},
         {"linearcurve", "0 0 0 .1\n0 1 x .1\n", "", "hair.txt:2: expected a point 'x y z radius'"},
         {"linearcurve", "0 0 0\n0 1 0\n", "", "expected a point 'x y z radius'"},
         {"linearcurve", "0 0 0 -1\n0 1 0 1\n", "", "a radius is below 0"},

@@ -60,7 +60,7 @@ static const struct bad_row {
      2, 1, "must not exceed 1"},
     {"<bsdf type='twosided'/>", 2, 1, "needs one or two nested bsdfs"},
     {"<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>", 3, 1, "id 'a' is given twice, first at"},
-    {"<shape type='cube'><ref id='nix'/></shape>", 2, 20, "there is no object with the id 'nix'"},
+    {"<shape type='cube'><ref id='nix'/></shape>", 2, 20, "unknown id 'nix'"},
     {"<bsdf type='diffuse' id='white'/><shape type='cube'><ref id='whte'/></shape>", 2, 53,
      "did you mean 'white'?"},
     {"<bsdf type='twosided' id='a'><ref id='b'/></bsdf><bsdf type='twosided' id='b'><ref "
@@ -68,7 +68,7 @@ static const struct bad_row {
      "type='cube'><ref id='a'/></shape>",
      2, 79, "a cycle"},
     {"<shape type='cube'><transform name='to_world'><scale value='0'/></transform></shape>", 2, 47,
-     "<scale> by 0"},
+     "<scale> must not be 0"},
     {"<shape type='cube'><transform name='to_world'><rotate angle='3'/></transform></shape>", 2, 47,
      "needs 'value' or 'x', 'y' and 'z'"},
     {"<shape type='cube'><transform name='to_world'><rotate angle='3' value='0 0 0'/></transform></shape>", 2,
@@ -135,8 +135,8 @@ static const struct bad_row {
     {"<emitter type='point'><point name='position' x='1e12'/><transform name='to_world'><scale "
      "value='2'/></transform></emitter>",
      2, 1, "must be within 1e+12 of the origin"},
-    {"<emitter type='directional'><vector name='direction' x='1e-13'/></emitter>", 2, 1, "nor nearly so"},
-    {"<emitter type='area'/>", 2, 1, "must stand inside a <shape>"},
+    {"<emitter type='directional'><vector name='direction' x='1e-13'/></emitter>", 2, 1, "or nearly 0"},
+    {"<emitter type='area'/>", 2, 1, "must be inside a <shape>"},
     {"<shape type='cube'><emitter type='area'><rgb name='radiance' value='-1'/></emitter></shape>", 2, 41,
      "must be between 0"},
     {"<medium type='homogenous'/>", 2, 1, "did you mean 'homogeneous'"},
@@ -179,14 +179,14 @@ static const struct bad_row {
      "it needs 'temperature'"},
     {"<bsdf type='diffuse'><spectrum name='reflectance' type='uniform'><spectrum name='value' "
      "value='1'/></spectrum></bsdf>",
-     2, 66, "<spectrum> cannot stand inside <spectrum>"},
+     2, 66, "<spectrum> is not allowed inside <spectrum>"},
     {"<bsdf type='diffuse'><spectrum name='reflectance' type='irregular'><string name='values' "
      "value='1,2'/><string name='wavelengths' value='400'/></spectrum></bsdf>",
      2, 22, "it has 1 wavelengths and 2 values"},
     {"<bsdf type='diffuse'><spectrum name='reflectance' filename='no.spd'/></bsdf>", 2, 22,
      "cannot find 'no.spd'"},
     {"<integrator type='moment'/>", 2, 1, "needs an <integrator> inside"},
-    {"<emitter type='area' id='lamp'/>", 2, 1, "must stand inside a <shape>, or a shape refer to it"},
+    {"<emitter type='area' id='lamp'/>", 2, 1, "must be inside a <shape>, or a shape must refer to it"},
 };
 
 static void says_what_is_wrong(void **state) {

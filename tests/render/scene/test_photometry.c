@@ -177,7 +177,7 @@ static void damage(void **state) {
         {HEAD "1 1 1 2 2 1 1 0 0 0 1 1 9\n0 180\n0 50\n1 1 1 1", 6, "horizontal angles must go from 0"},
         {HEAD "1 1 1 2 1 1 1 0 0 0 1 1 9\n0 180\n0\n1", 6, "a luminous intensity expected (the file ends)"},
         {HEAD "1 1 1 2 1 1 1 0 0 0 1 1 9\n0 180\n0\n1 -1", 6, "must not be below 0"},
-        {HEAD "1 1 1 2 1 1 1 0 0 0 1 1 9\n0 180\n0\n0 0", 6, "the lamp gives no light"},
+        {HEAD "1 1 1 2 1 1 1 0 0 0 1 1 9\n0 180\n0\n0 0", 6, "the luminaire emits no light"},
         {HEAD "1 1 1 2 1 1 1 0 0 0 1 1 9\n0 180\n0\n1 nan", 6, "a luminous intensity expected (found 'nan')"},
         {HEAD "1 1 1 90000 90000 1 1 0 0 0 1 1 9\n0", 3, "more than 4 million values"},
         {"TILT=INCLUDE\n1 2\n0 90\n1", 4, "a tilt angle or factor expected"},

@@ -330,8 +330,8 @@ static void takes_diffuse_parts(void **state) {
     aur_error error = {0};
     if (aur_scene_load_memory("room.rad", sizeof text - 1, text, &options, &scene, &error) != AUR_OK)
         fail_msg("%zu: %s", error.line, error.message);
-    assert_string_equal(said, "room.rad: 4 patterns, textures and materials of Radiance are not read: what "
-                              "they have that is diffuse stands for them\n");
+    assert_string_equal(said, "room.rad: 4 patterns, textures and materials of Radiance are not read: "
+                              "their diffuse part replaces them\n");
     assert_int_equal(scene->shape_count, 3);
     const aur_bsdf_point point = {.u = 0.0f};
     const aur_vector coat = aur_bsdf_diffuse_albedo(aur_scene_shape_bsdf(scene, 0), point, 1.0f);
@@ -360,15 +360,15 @@ static void bad_input(void **state) {
         {"void trans2 p 0 0 7 1 1 1 0 0 .5 .5\nvoid alias q p\n" SPHERE("q"), 1, "'trans2' is not read"},
         {"m poligon p 0 0 9 0 0 0 1 0 0 0 1 0", 1, "'poligon' is not read"},
         {"void plastic p\n0\n0\n4 1 1 1 .1", 1, "plastic takes 5 numbers, not 4"},
-        {"void plastic p\n0\n0\n5 1 1 1 .1 x", 4, "a number must stand here, not 'x'"},
-        {"void plastic p\n0\n0\n5 1 1 nan 0 0", 4, "a number must stand here, not 'nan'"},
-        {"void plastic p\n0\n-1\n5 1 1 1 0 0", 3, "the number of integers must stand here, not '-1'"},
+        {"void plastic p\n0\n0\n5 1 1 1 .1 x", 4, "expected a number here, not 'x'"},
+        {"void plastic p\n0\n0\n5 1 1 nan 0 0", 4, "expected a number here, not 'nan'"},
+        {"void plastic p\n0\n-1\n5 1 1 1 0 0", 3, "expected the number of integers here, not '-1'"},
         {"void plastic p\n0\n1 7\n5 1 1 1 0 0", 3, "plastic takes no integers, not 1"},
-        {"void plastic p\n0\n", 3, "the file ends where the number of integers must stand"},
-        {"void plastic p\n99999999999999999999\n", 2, "the number of strings must stand here"},
+        {"void plastic p\n0\n", 3, "the file ends, but the number of integers must follow"},
+        {"void plastic p\n99999999999999999999\n", 2, "expected the number of strings here"},
         {"void plastic p 0 0 5 1.5 1 1 0 0", 1, "'reflectance'"},
         {"\n\n!gensurf a b 1 1 1", 3, "'gensurf' is not run, only cat, xform, genbox, genprism and genrev"},
-        {"!genbox a b 1 1 1", 1, "no material 'a' above"},
+        {"!genbox a b 1 1 1", 1, "unknown material 'a': it is not defined above"},
         {"!genbox a b 1 1", 1, "genbox: three sizes expected"},
         {"!genbox a b 1 1 0", 1, "genbox: sizes must be above 0"},
         {"!genbox a b 1 1 1 -b .6", 1, "at most half"},
@@ -404,9 +404,9 @@ static void bad_input(void **state) {
         {"!cat \xc3\xa4\xf0\x9f\x98\x80.rad", 1, "cannot find '\xc3\xa4\xf0\x9f\x98\x80.rad'"},
         {"!cat a\xe4.rad", 1, "cannot find 'a\xe4.rad'"},
         {"!cat a\x01.rad", 1, "must not have control characters"},
-        {"!", 1, "a command must stand after '!'"},
-        {"nix sphere s 0 0 4 0 0 0 1", 1, "no material 'nix'"},
-        {"void alias a b", 1, "no material 'b'"},
+        {"!", 1, "a command must follow '!'"},
+        {"nix sphere s 0 0 4 0 0 0 1", 1, "unknown material 'nix'"},
+        {"void alias a b", 1, "unknown material 'b'"},
         {"void brightfunc b 2 a b 0 0\nb plastic p 0 0 5 1 1 1 0 0\n" SPHERE("p"), 2,
          "its modifier must be 'void', not 'b'"},
         {MATERIALS "white polygon p 0 0 10 0 0 0 1 0 0 0 1 0 0", 9, "are not corners of three"},

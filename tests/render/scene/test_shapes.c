@@ -315,11 +315,11 @@ static const struct bad_mesh {
     size_t line;
     const char *message;
 } bad_meshes[] = {
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", 4, "index 4 is no vertex: there are 3"},
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n", 4, "is no vertex"},
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", 4, "index -4 is no vertex"},
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", 4, "index 0 is no vertex"},
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n", 4, "is no texture coordinate"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", 4, "index 4 is not a vertex: there are 3"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n", 4, "is not a vertex"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", 4, "index -4 is not a vertex"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", 4, "index 0 is not a vertex"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n", 4, "is not a texture coordinate"},
     {"a.obj", "v 0 0 nan\n", 1, "not finite"},
     {"a.obj", "v 0 0 1e40\n", 1, "not finite, or beyond"},
     {"a.obj", "v 0 0\n", 1, "expected 3 numbers"},
@@ -335,7 +335,7 @@ static const struct bad_mesh {
      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
      "face 1\n"
      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-     13, "face 0: index 3 is no vertex: there are 3"},
+     13, "face 0: index 3 is not a vertex: there are 3"},
     {"a.ply",
      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
      "face 1\n"

@@ -178,7 +178,7 @@ static void caller_errors(void **state) {
         {"path", &unsized, AUR_ERROR_ARGUMENT, "aur_gather_integrator: 'size' is 0"},
         {"studi", &study, AUR_ERROR_NAME, "did you mean 'study'"},
         {"study:turn=1", &study, AUR_ERROR_NAME, "did you mean 'turns'"},
-        {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "no field of its settings"},
+        {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "unknown field 'stray' of its settings"},
         {"finalgather-lab:adaptive=true,share=true", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "share"},
         {"finalgather-lab:adaptive=true,debias=true", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "debias"},
         {"finalgather-lab:adaptive=true,pattern=hammersley", &lab_finalgather, AUR_ERROR_UNSUPPORTED,

@@ -77,7 +77,7 @@ static void terminates_as_the_paper_says(void **state) {
     assert_false(converged);
     assert_int_equal(describe(limited).paths, 4500);
     assert_int_equal(aur_radiosity_terminate(limited, &rule, NULL, &error), AUR_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "4500 paths are no multiple of the interval of 1000"));
+    assert_non_null(strstr(error.message, "4500 paths are not a multiple of the interval of 1000"));
     assert_int_equal(
         aur_radiosity_terminate(
             adaptive, &(aur_radiosity_termination){.size = sizeof(aur_radiosity_termination), .epsilon = 0.0},

@@ -73,8 +73,8 @@ static aur_result read_row(reader *r, char *text) {
     aur_matrix *const matrix = r->matrix;
     const size_t fields = count_fields(text);
     if (fields != matrix->column_count)
-        return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "%zu columns where there were %zu before",
-                           fields, matrix->column_count);
+        return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "expected %zu columns as before (found %zu)",
+                           matrix->column_count, fields);
     if (!grow(r))
         return aur_fail_memory(r->error);
     double *const row = matrix->values + matrix->row_count * matrix->column_count;

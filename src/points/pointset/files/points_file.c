@@ -88,7 +88,7 @@ static aur_result by_declaration(const char *path, const aur_matrix *matrix, mea
     if (columns > matrix->weighted && (dimension == 0 || m->dimension == dimension))
         return AUR_OK;
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
-                       "%zu columns are no points of the domain '%s'", columns,
+                       "%zu columns are not points of the domain '%s'", columns,
                        aur_domain_name(matrix->domain));
 }
 
@@ -140,7 +140,7 @@ static aur_result refuse_columns(const char *path, const aur_matrix *matrix, aur
 static const char *off_domain(const meaning *m, const double *row) {
     if (m->domain == AUR_DOMAIN_SPHERE)
         return aur_is_unit(row)            ? NULL
-               : aur_dot3(row, row) == 0.0 ? "0 0 0 is no direction: leave such rows (b = 0) out"
+               : aur_dot3(row, row) == 0.0 ? "0 0 0 is not a direction: leave such rows (b = 0) out"
                                            : "a direction must have length 1";
     if (m->domain == AUR_DOMAIN_ROTATIONS) {
         const double square = row[0] * row[0] + aur_dot3(row + 1, row + 1);

@@ -30,7 +30,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
     if (p.permute == PERMUTE_RANDOM &&
         (set->scramble == AUR_SCRAMBLE_DIGIT || set->scramble == AUR_SCRAMBLE_OWEN))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "set 'halton': permute=random permutes the digits already; it goes with scrambling "
+                        "set 'halton': permute=random already permutes the digits: expected scrambling "
                         "none, shift or rotate");
     halton *const data = malloc(sizeof *data + set->dimension * sizeof data->primes[0]);
     if (data == NULL)

@@ -155,10 +155,10 @@ static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameter
         return result;
     lattice_make_fibonacci(set->size, p.offset, data);
     if (data->golden)
-        aur_warn_at(
-            &set->options->warnings, (aur_location){0},
-            "set 'fibonacci-lattice': the number of points is no Fibonacci number, so the points are no "
-            "lattice; the golden ratio stands for its ratios");
+        aur_warn_at(&set->options->warnings, (aur_location){0},
+                    "set 'fibonacci-lattice': the number of points is not a Fibonacci number, so the points "
+                    "are not a "
+                    "lattice; the golden ratio replaces its ratios");
     return AUR_OK;
 }
 

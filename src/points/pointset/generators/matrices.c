@@ -93,7 +93,7 @@ static aur_result read_line(reader *r, const char *text) {
     while (isspace((unsigned char)*end))
         ++end;
     if (r->digit_count > 0 || *end != '\0' || base >= AUR_RADICAL_BASE_LIMIT || !aur_is_prime((uint32_t)base))
-        return fail(r, "'base' must stand before the matrices and be a prime below", AUR_RADICAL_BASE_LIMIT);
+        return fail(r, "'base' must precede the matrices and be a prime below", AUR_RADICAL_BASE_LIMIT);
     r->base = (uint32_t)base;
     return AUR_OK;
 }

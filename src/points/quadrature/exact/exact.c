@@ -27,7 +27,7 @@ static aur_result check_degree(const aur_exact_options *o, size_t most, aur_erro
 static aur_result check_options(aur_exact_options *o, double *lowest, aur_error *error) {
     const bool sphere = o->domain == AUR_DOMAIN_SPHERE;
     if (!sphere && o->domain != AUR_DOMAIN_HEMISPHERE)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there are no exact weights on the domain '%s'",
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "no exact weights exist on the domain '%s'",
                         aur_domain_name(o->domain));
     const double most = sphere ? 180.0 : 90.0;
     const bool wide = o->cap_degrees > 90.0 && o->cap_degrees <= 180.0;
@@ -284,17 +284,18 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
                         const aur_exact_found *found, aur_error *error) {
     const size_t count = system->points.count;
     if (!found->exact)
-        return aur_fail(
-            error, AUR_ERROR_ARGUMENT,
-            "no weights of these %zu points at %zu places were found that integrate all %zu %s of degree %zu "
-            "to %g: ask for the largest degree that has some",
-            count, system->places, aur_exact_functions(system, found->degree),
-            system->space != NULL && system->space->domain == AUR_DOMAIN_ROTATIONS ? "functions"
-                                                                                   : "polynomials",
-            found->degree, fmax(AUR_EXACT_TOLERANCE, system->tolerance));
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "no weights were found for these %zu points (%zu distinct) that integrate all %zu %s "
+                        "of degree %zu "
+                        "to %g: use the largest degree that has weights",
+                        count, system->places, aur_exact_functions(system, found->degree),
+                        system->space != NULL && system->space->domain == AUR_DOMAIN_ROTATIONS
+                            ? "functions"
+                            : "polynomials",
+                        found->degree, fmax(AUR_EXACT_TOLERANCE, system->tolerance));
     if (found->least <= 0.0 && !o->negative)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
+                        "degree %zu needs negative weights, the least of them %.4g/N: allow them, or use "
                         "the largest degree with positive ones",
                         found->degree, found->least * (double)count);
     return AUR_OK;

@@ -245,8 +245,8 @@ static aur_result check_directions(const aur_integrate_options *o, aur_error *er
 
 aur_result aur_shape_check(const aur_integrate_options *o, aur_error *error) {
     if ((size_t)o->region > AUR_REGION_TETRAHEDRON || aur_domain_name(o->domain) == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no such domain or region: %d, %d",
-                        (int)o->domain, (int)o->region);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain or region: %d, %d", (int)o->domain,
+                        (int)o->region);
     const size_t dimension = aur_shape_dimension(o);
     if (dimension < 1 || dimension > AUR_INTEGRATE_DIMENSION_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the cube must have 1 to %d dimensions, not %zu",

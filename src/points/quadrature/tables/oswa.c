@@ -94,10 +94,10 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
     const bool ggx = options->mirror_lobe.kind == AUR_LOBE_GGX;
     if ((options->count == 0 && !ggx) || options->mirror_count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "both lobes need at least one sample; only a ggx lobe may stand alone");
+                        "both lobes need at least one sample; only a ggx lobe may be used alone");
     if (options->published_z.angle_count > 0 && (options->clipped || ggx))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "the published table of z knows whole cos^m lobes only");
+                        "the published table of z holds whole cos^m lobes only");
     return AUR_OK;
 }
 

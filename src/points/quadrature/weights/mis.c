@@ -51,7 +51,7 @@ static aur_result check_strategies(aur_mis_heuristic heuristic, size_t strategy_
     }
     return left == 0 ? AUR_OK
                      : aur_fail(error, AUR_ERROR_ARGUMENT,
-                                "the strategies' samples are not %zu, as many as there are weights", count);
+                                "the strategies' samples must be as many as the weights, %zu", count);
 }
 
 aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,

@@ -95,8 +95,9 @@ static aur_result voronoi_cells(const aur_measure_request *request, aur_series *
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         sides += cells[i].sides;
         if (cells[i].sides < 3)
-            result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                              "the cell of point %zu has %zu sides and is no polygon", i + 1, cells[i].sides);
+            result =
+                aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                         "the cell of point %zu is not a polygon: it has %zu sides", i + 1, cells[i].sides);
     }
     if (result != AUR_OK)
         return result;

@@ -17,7 +17,7 @@ static aur_result parse(const char *text, double *smoothness, aur_lobe *lobe, au
     memcpy(number, text, length);
     number[length] = '\0';
     if (!aur_parse_double(number, smoothness) || *smoothness == 0.0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "wce: '%s' is no smoothness", number);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "wce: '%s' is not a smoothness", number);
     *lobe = (aur_lobe){.kind = AUR_LOBE_COSINE_POWER};
     return text[length] == ':' ? aur_lobe_parse(text + length + 1, lobe, error) : AUR_OK;
 }

@@ -136,7 +136,7 @@ static aur_result net_parameter(const aur_measure_request *request, double *valu
 
 const aur_measure_row aur_measure_net = {
     {.row = {.name = "net",
-             .summary = "t of the points as a (t,m,s)-net in base B (2): 0 is best, m is no net at all",
+             .summary = "t of the points as a (t,m,s)-net in base B (2): 0 is best, m is not a net",
              .source = "Niederreiter 1987"},
      .parameter = "[:B]",
      .domains = "square, cube"},

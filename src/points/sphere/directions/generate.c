@@ -81,7 +81,7 @@ static aur_result allocate(const job *j, uint64_t size, size_t dimension, bool w
 static aur_result generate_flat(const job *j, size_t dimension, bool weighted, aur_points **points) {
     if (aur_native_find(j->set) != NULL)
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
-                        "set '%s' lives on the sphere: ask for the disk, the hemisphere or the sphere",
+                        "set '%s' is a set of the sphere: expected the domain disk, hemisphere or sphere",
                         j->set);
     const aur_pointset_options requested = {.size = sizeof requested,
                                             .count = j->size,

@@ -41,7 +41,7 @@ static aur_result make_tree(const aur_points_view *points, aur_nearest *created,
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         if (!take(created, aur_point_at(points, i), all + dimension * i))
             result = aur_fail(error, AUR_ERROR_ARGUMENT,
-                              "point %zu has no place: its coordinates are not finite, or all zero", i + 1);
+                              "point %zu has coordinates that are not finite, or all zero", i + 1);
     for (size_t i = 0; i < size && created->ends == 2; ++i)
         all[size + i] = -all[i];
     if (result == AUR_OK)
@@ -154,9 +154,8 @@ aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_option
     result = aur_parallel_for(&parallel, items, find_some, &b, error);
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         if (b.refused[i] != 0)
-            result =
-                aur_fail(error, AUR_ERROR_ARGUMENT,
-                         "query %zu has no place: its coordinates are not finite, or all zero", b.refused[i]);
+            result = aur_fail(error, AUR_ERROR_ARGUMENT,
+                              "query %zu has coordinates that are not finite, or all zero", b.refused[i]);
     free(b.refused);
     return result;
 }

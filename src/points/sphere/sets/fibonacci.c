@@ -92,7 +92,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
         (lattice.offset > 1.0 || p.epsilon >= 0.0 || (request->height != 1.0 && request->height != 2.0)))
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,
-            "set 'spherical-fibonacci': an octant goes with an offset, not with 'epsilon' or a cap");
+            "set 'spherical-fibonacci': an octant excludes 'epsilon' and a cap: expected an offset");
     if (octant && request->count > SIZE_MAX / 64)
         return aur_fail(error, AUR_ERROR_MEMORY, "the octant's points do not fit into memory");
     fibonacci_set *const stored =

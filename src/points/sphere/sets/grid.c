@@ -179,7 +179,7 @@ static aur_result choose_size(uint64_t count, int64_t base, int64_t levels, grid
         g->base = count >> (2 * g->levels);
         if (g->base == 0 || g->base << (2 * g->levels) != count)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "set 'esfg': %llu points are no multiple of 4^%zu: give the base",
+                            "set 'esfg': %llu points are not a multiple of 4^%zu: give the base",
                             (unsigned long long)count, g->levels);
         return AUR_OK;
     }

@@ -134,8 +134,8 @@ static int check_rows(const table_reading *self, const aur_facets *facets, const
     for (size_t i = 0; i < aur_facets_rows(facets); ++i)
         if (isnan(properties->emittances[i])) {
             const char *const name = aur_facets_name(facets, i);
-            return cli_bad_usage("%s: no line is of row %zu%s%s: name it, or '*' for all others", self->path,
-                                 i, name != NULL ? ", " : "", name != NULL ? name : "");
+            return cli_bad_usage("%s: row %zu%s%s has no line: name it, or '*' for all others", self->path, i,
+                                 name != NULL ? ", " : "", name != NULL ? name : "");
         }
     return CLI_SUCCESS;
 }

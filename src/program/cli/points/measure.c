@@ -54,8 +54,9 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
     const char *const source = arguments->sources[0];
     cli_points from = arguments->points;
     if (!from.domain_given && strcmp(source, "-") == 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "--metric all: standard input is read once, so say by --domain where its points are");
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "--metric all: standard input is read once, so --domain must state the domain of its points");
     if (!from.domain_given) {
         uint64_t size = 0;
         if (arguments->sizes.count > 0)
@@ -95,7 +96,7 @@ static bool complete(cli_measure_arguments *arguments) {
         return cli_bad_usage("--seeds cannot be used with a measure that is a table"), false;
     for (size_t i = 0; i < arguments->source_count; ++i)
         if (arguments->sizes.count == 0 && !cli_has_size(arguments->sources[i]))
-            return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
+            return cli_bad_usage("measure: -n is missing for the set '%s' (no such file)",
                                  arguments->sources[i]),
                    false;
     for (size_t i = 0; i < arguments->metrics.count; ++i) {

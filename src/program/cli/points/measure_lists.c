@@ -156,7 +156,7 @@ aur_result cli_all_metrics(aur_domain domain, bool cap, cli_list *metrics, char 
             result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     }
     if (result == AUR_OK && items.list.count == 0)
-        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--metric all: there is no measure for the %s",
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--metric all: no measure for the %s",
                           aur_domain_name(domain));
     return finish(&items, result, metrics, storage);
 }

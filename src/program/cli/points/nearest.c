@@ -72,7 +72,7 @@ static int run(const cli_call *call) {
     nearest_command *const command = call->options;
     const char *const source = call->operands[0];
     if (command->count == 0 && !cli_has_size(source))
-        return cli_bad_usage("nearest: -n is missing for the set '%s' (there is no such file)", source);
+        return cli_bad_usage("nearest: -n is missing for the set '%s' (no such file)", source);
     if (!cli_is_file(call->operands[1]))
         return cli_bad_usage("nearest: cannot read '%s': expected a file of queries", call->operands[1]);
     command->from.domain_given = cli_given(call, "domain") != NULL;

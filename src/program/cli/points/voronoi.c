@@ -162,7 +162,7 @@ static int run(const cli_call *call) {
     voronoi_command *const command = call->options;
     const char *const source = call->operands[0];
     if (command->count == 0 && !cli_has_size(source))
-        return cli_bad_usage("voronoi: -n is missing for the set '%s' (there is no such file)", source);
+        return cli_bad_usage("voronoi: -n is missing for the set '%s' (no such file)", source);
     if (command->cells != NULL && find_format(command->cells) == NULL)
         return cli_bad_usage("--cells: '%s' ends in none of .csv, .obj, .ply", command->cells);
     if (command->cells != NULL && command->from.options.cap_degrees > 0.0)

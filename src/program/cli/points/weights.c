@@ -137,8 +137,7 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     arguments->domain_follows = !points->domain_given && !arguments->two && cli_given(call, "lobe") == NULL &&
                                 points->options.cap_degrees == 0.0;
     if (cli_given(call, "size") == NULL && !cli_has_size(arguments->source))
-        return cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)",
-                             arguments->source);
+        return cli_bad_usage("weights: -n is missing for the set '%s' (no such file)", arguments->source);
     if (cli_given(call, "method") == NULL)
         arguments->method = arguments->two ? CLI_METHOD_OSWA
                             : cli_has_directions(points->options.domain) && arguments->symmetry == NULL

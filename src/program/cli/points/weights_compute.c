@@ -171,8 +171,7 @@ static aur_result ratio_weights(const weights_job *task, size_t k, double *weigh
     const size_t first = first_of(task, k);
     memset(weights, 0, task->result->count * sizeof *weights);
     if (task->lobe_counts[k] == 0)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "a file does not say what density its points were drawn from");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a file does not state the density of its points");
     if (task->result->domain != AUR_DOMAIN_HEMISPHERE) {
         equal_weights(task, k, weights); /* only for the uniform density */
         return AUR_OK;

@@ -89,11 +89,11 @@ aur_result cli_oidn_open(cli_oidn **created, aur_error *error) {
     const char *const named = getenv("AUREOLE_OIDN");
     cli_oidn loaded = {.library = open_library(named)};
     if (loaded.library == NULL && named != NULL && named[0] != '\0')
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "--denoise: the library that AUREOLE_OIDN names: %s",
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "--denoise: the library in AUREOLE_OIDN: %s",
                         dlerror());
     if (loaded.library == NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "--denoise: no Open Image Denoise is found: install libopenimagedenoise, or name its "
+                        "--denoise: Open Image Denoise not found: install libopenimagedenoise, or name its "
                         "library in AUREOLE_OIDN, such as .../pyoidn/lib/libOpenImageDenoise.so.2");
     cli_oidn *const oidn = find_all(&loaded) ? malloc(sizeof *oidn) : NULL;
     if (oidn == NULL) {

@@ -348,7 +348,7 @@ aur_result aur_photometry_parse(const char *path, size_t size, const char *data,
     if (result == AUR_OK)
         result = check_range(&self, photometry);
     if (result == AUR_OK && !(aur_photometry_flux(photometry) > 0.0))
-        result = fail(&self, "the lamp gives no light");
+        result = fail(&self, "the luminaire emits no light");
     if (result != AUR_OK)
         aur_photometry_release(photometry);
     return result;

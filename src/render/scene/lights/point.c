@@ -74,7 +74,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
                                  : aur_transform_direction_f(&p->to_world, (aur_vector){0.0f, 0.0f, 1.0f});
     if (emitter->descriptor->is_far && !(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
-                                   "'direction' must not be 0 0 0, nor nearly so");
+                                   "'direction' must not be 0 0 0 or nearly 0");
     aur_transform_point(&p->to_world, p->position, self->world_position);
     self->frame = aur_frame_about(aur_vector_normalize(way));
     emitter->radiance = p->color;

@@ -147,7 +147,7 @@ static aur_result read_scale(const sky_keys *p, aur_parameters *parameters, sky_
         chosen = i;
     }
     if (!(total > 0.0) || !isfinite(total) || (chosen >= 2 && !(zenith > 0.0)))
-        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "such a sky is nowhere bright");
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the sky has no radiance anywhere");
     const aur_vector values[4] = {
         given == 0 && p->model == PEREZ ? gray(p->diffuse_horizontal) : p->irradiance.constant,
         gray(p->illuminance / EFFICACY), p->zenith_radiance.constant, gray(p->zenith_luminance / EFFICACY)};

@@ -89,7 +89,7 @@ static aur_result read_frame(const aur_sun_keys *keys, aur_parameters *parameter
     for (int d = 0; d < 3; ++d)
         up[d] = keys->up[d];
     if (aur_normalize3(up) < 1.0 / AUR_REACH)
-        return fail_direction(parameters, "up", "0 0 0, nor nearly so", error);
+        return fail_direction(parameters, "up", "0 0 0 or nearly 0", error);
     if (aur_parameters_find(parameters, "north") != NULL)
         for (int d = 0; d < 3; ++d)
             north[d] = keys->north[d];
@@ -123,7 +123,7 @@ aur_result aur_sun_position_read(const aur_sun_keys *keys, aur_parameters *param
     position->sun[1] = aur_dot3(keys->sun_direction, position->north);
     position->sun[2] = aur_dot3(keys->sun_direction, position->up);
     if (aur_normalize3(position->sun) < 1.0 / AUR_REACH)
-        return fail_direction(parameters, "sun_direction", "0 0 0, nor nearly so", error);
+        return fail_direction(parameters, "sun_direction", "0 0 0 or nearly 0", error);
     return AUR_OK;
 }
 

@@ -191,7 +191,7 @@ static aur_result place_sensor(aur_loader *self, const aur_parameters *parameter
         return AUR_OK;
     if (strcmp(parameters->plugin, "batch") == 0)
         return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
-                                   "it cannot stand inside another one");
+                                   "it cannot be inside another one");
     const aur_result result =
         aur_loader_reserve(self, &scene->parts, scene->part_count, &scene->part_capacity);
     if (result != AUR_OK)
@@ -212,7 +212,7 @@ static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, 
         const aur_medium *const here = scene->parts[i]->medium != NULL ? scene->parts[i]->medium : medium;
         if (i > 0 && here != scene->sensor.medium)
             return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
-                                       "its sensors must stand in one medium, not in several");
+                                       "its sensors must be in one medium, not in several");
         if (i > 0 && scene->parts[i]->descriptor->factor != scene->parts[0]->descriptor->factor)
             return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
                                        "irradiance meters cannot be combined with other sensors");

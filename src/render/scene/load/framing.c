@@ -156,7 +156,7 @@ static aur_result parse_lookat(aur_scene *scene, size_t count, const double *num
     aur_transform to_world;
     if (!aur_transform_look_at(numbers, numbers + 3, up, &to_world) &&
         !aur_transform_look_at(numbers, numbers + 3, other, &to_world))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera must look at another point than where it is");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera must look at a point other than its position");
     double axes[3][3];
     for (size_t k = 0; k < 3; ++k)
         for (size_t d = 0; d < 3; ++d)
@@ -185,14 +185,13 @@ aur_result aur_stage_set_camera(aur_scene *scene, const char *text, double aspec
     const bool is_lookat = !flat && (count == 6 || (count == 7 && numbers[6] > 0.0 && numbers[6] < 180.0));
     for (size_t i = 0; is_lookat && i < 6; ++i)
         if (!(fabs(numbers[i]) <= AUR_REACH))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera may stand up to %g from the origin",
-                            AUR_REACH);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera must be within %g of the origin", AUR_REACH);
     return is_lookat
                ? parse_lookat(scene, count, numbers, z_up, error)
                : aur_fail(error, AUR_ERROR_ARGUMENT,
                           "unknown camera '%s': expected front, back, left, right, top, bottom, corner, iso, "
-                          "AZIMUTH,ELEVATION in degrees, or X,Y,Z,X,Y,Z[,FOV]: where it is, what it looks "
-                          "at, and its field of view in degrees",
+                          "AZIMUTH,ELEVATION in degrees, or X,Y,Z,X,Y,Z[,FOV]: position, target and "
+                          "field of view in degrees",
                           text);
 }
 

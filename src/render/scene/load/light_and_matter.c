@@ -15,8 +15,7 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
         return result;
     if ((*built)->descriptor->polarizes && !self->said_unpolarized) {
         self->said_unpolarized = true;
-        aur_warn_at(self->warnings, parameters->location,
-                    "light is unpolarised here: '%s' and its like do with it what they do with such light",
+        aur_warn_at(self->warnings, parameters->location, "light is unpolarised here: '%s' treats it as such",
                     parameters->plugin);
     }
     *object = *built;

@@ -63,7 +63,7 @@ static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const
     if (named && strcmp(parameters->plugin, "scale") == 0)
         given = "value";
     if (named && given == NULL)
-        return aur_xml_fail(child, self->error, "a %s inside an object needs a 'name': what it is for", tag);
+        return aur_xml_fail(child, self->error, "a %s inside an object needs a 'name'", tag);
     size_t count = 1;
     for (size_t i = 0; i < parameters->count; ++i)
         count += parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
@@ -95,9 +95,9 @@ static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur
         *target = found_id->node;
     else
         aur_names_hint((aur_names){document->tree.id_count, id_at, document->tree.ids}, id, "''", hint);
-    return found_id != NULL ? AUR_OK
-                            : aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
-                                          "there is no object with the id '%s'%s", id, hint);
+    return found_id != NULL
+               ? AUR_OK
+               : aur_fail_at(self->error, node->location, AUR_ERROR_NAME, "unknown id '%s'%s", id, hint);
 }
 
 aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml_node **target) {

@@ -50,8 +50,8 @@ static aur_spectrum_use use_of(const aur_parameters *parameters, const char *nam
 static aur_result add_plain(const property *found, const aur_xml_node *node, aur_parameters *parameters,
                             aur_error *error) {
     if (node->first_child != NULL)
-        return aur_xml_fail(node->first_child, error, "<%s> cannot stand inside <%s>", node->first_child->tag,
-                            node->tag);
+        return aur_xml_fail(node->first_child, error, "<%s> is not allowed inside <%s>",
+                            node->first_child->tag, node->tag);
     const char *value = aur_xml_attribute_value(node, "value");
     char text[96];
     if (found->kind == AUR_PARAMETER_VECTOR) {
@@ -78,7 +78,7 @@ static aur_result read_typed(const aur_xml_node *node, aur_spectrum_use use, dou
          child = child->next) {
         const property *const inner = find(child->tag);
         if (inner == NULL || strcmp(child->tag, "spectrum") == 0 || inner->kind == AUR_PARAMETER_TRANSFORM)
-            result = aur_xml_fail(child, error, "<%s> cannot stand inside <spectrum>", child->tag);
+            result = aur_xml_fail(child, error, "<%s> is not allowed inside <spectrum>", child->tag);
         if (result == AUR_OK)
             result = aur_xml_check(child, &inner->rule, error);
         if (result == AUR_OK)
@@ -112,7 +112,7 @@ static aur_result add_spectrum(aur_loader *self, const aur_xml_node *node, aur_p
         return aur_xml_fail(node, self->error, "<spectrum> needs one of 'value', 'filename' and 'type'");
     if (!typed && node->first_child != NULL)
         return aur_xml_fail(node->first_child, self->error,
-                            "<%s> cannot stand inside <spectrum> without 'type'", node->first_child->tag);
+                            "<%s> is not allowed inside <spectrum> without 'type'", node->first_child->tag);
     const aur_spectrum_use use = use_of(parameters, name);
     double rgb[3], constant;
     aur_result result;

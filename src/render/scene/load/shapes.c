@@ -154,7 +154,7 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         result = default_bsdf(self, emitter != NULL, &bsdf);
     if (result == AUR_OK && emitter != NULL && emitter->descriptor->is_far)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
-                             "emitter '%s' cannot stand inside a shape", emitter->descriptor->row.name);
+                             "emitter '%s' is not allowed inside a shape", emitter->descriptor->row.name);
     if (emitter != NULL &&
         !emitter->descriptor->needs_shape) /* the position of a spot comes from its to_world */
         emitter = NULL;

@@ -42,7 +42,7 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
                    ? AUR_OK
                    : aur_xml_fail(
                          node, self->error,
-                         "<%s> cannot stand here: it belongs inside a <%s>, or needs an 'id' by which "
+                         "<%s> is not allowed here: it belongs inside a <%s>, or needs an 'id' by which "
                          "one refers to it",
                          node->tag, strcmp(node->tag, "rfilter") == 0 ? "film" : "sensor");
     if (is_built_on_demand(node))
@@ -60,13 +60,15 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
 /* A condition that depends on the whole scene: whether another object refers to a child of <scene>. */
 static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
     if (is_part(node) && node->state == AUR_XML_UNBUILT)
-        aur_warn_at(self->warnings, node->location, "nothing refers to this <%s>: it is left out", node->tag);
+        aur_warn_at(self->warnings, node->location, "this <%s> is left out: no object refers to it",
+                    node->tag);
     if (strcmp(node->tag, "emitter") != 0)
         return AUR_OK;
     const aur_emitter *const emitter = node->object;
     if (emitter == NULL || !emitter->descriptor->needs_shape || emitter->shape != UINT32_MAX)
         return AUR_OK;
-    return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>, or a shape refer to it",
+    return aur_xml_fail(node, self->error,
+                        "emitter '%s' must be inside a <shape>, or a shape must refer to it",
                         emitter->descriptor->row.name);
 }
 

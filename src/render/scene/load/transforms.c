@@ -46,7 +46,7 @@ static aur_result read_scale(const aur_xml_node *node, aur_transform *step, aur_
     if (result != AUR_OK)
         return result;
     if (v[0] == 0.0 || v[1] == 0.0 || v[2] == 0.0)
-        return aur_xml_fail(node, error, "<scale> by 0 leaves nothing");
+        return aur_xml_fail(node, error, "<scale> must not be 0");
     *step = aur_transform_scale(v[0], v[1], v[2]);
     return AUR_OK;
 }

@@ -18,14 +18,14 @@ static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_err
     if (result != AUR_OK)
         return result;
     if (p.shape == NULL || p.shape->kind != AUR_PARAMETER_OBJECT)
-        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it must stand inside a <shape>");
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it must be inside a <shape>");
     const aur_shape *const shape = p.shape->object;
     if (shape->grouped || (shape->curved != NULL && shape->curved->sample == NULL))
         return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED,
-                                   "it cannot stand inside a curve or a shape of a shapegroup");
+                                   "it cannot be inside a curve or a shape of a shapegroup");
     if (aur_parameters_find(parameters, "to_world") != NULL)
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
-                                   "it stands where its shape is and takes no 'to_world'");
+                                   "it has the position of its shape and takes no 'to_world'");
     sensor->shape = shape;
     return AUR_OK;
 }

@@ -162,8 +162,8 @@ static aur_result read_point(reader *self) {
 static aur_result end_curve(reader *self) {
     const size_t needed = self->curves->smooth ? 4 : 2;
     if (self->length > 0 && self->length < needed)
-        return aur_mesh_file_fail(&self->file, "a curve ends here that has %zu points; it needs %zu at least",
-                                  self->length, needed);
+        return aur_mesh_file_fail(&self->file, "a curve must have at least %zu points (found %zu)", needed,
+                                  self->length);
     self->length = 0;
     return AUR_OK;
 }

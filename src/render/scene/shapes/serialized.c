@@ -130,7 +130,7 @@ static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
         return aur_mesh_file_fail(file, "not a serialized mesh file");
     const uint64_t version = little(data + 2, 2);
     if (version != 3 && version != 4)
-        return aur_mesh_file_fail(file, "version %u of the format is not known: it must be 3 or 4",
+        return aur_mesh_file_fail(file, "unknown version %u of the format: expected 3 or 4",
                                   (unsigned)version);
     const size_t width = version == 4 ? 8 : 4;
     const size_t count = (size_t)little(data + size - 4, 4), index = file->shape_index;

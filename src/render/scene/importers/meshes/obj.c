@@ -105,7 +105,7 @@ static aur_result read_index(obj *self, size_t kind, uint32_t *index) {
     const int64_t count = (int64_t)count_of(self, kind);
     const int64_t found = number < 0 ? count + number : number - 1;
     if (found < 0 || found >= (int64_t)AUR_MESH_NO_INDEX - 1)
-        return aur_mesh_reader_fail(self->reader, "index %lld is no %s: there are %lld so far",
+        return aur_mesh_reader_fail(self->reader, "index %lld is not a %s: there are %lld so far",
                                     (long long)number, kind_names[kind], (long long)count);
     *index = (uint32_t)found;
     if (*index >= self->largest[kind]) {
@@ -308,7 +308,7 @@ static aur_result read_all(obj *self) {
     for (size_t kind = 0; kind < 3; ++kind)
         if (self->largest[kind] > count_of(self, kind)) {
             scanner->line = self->largest_line[kind];
-            return aur_mesh_reader_fail(reader, "index %lu is no %s: there are %zu",
+            return aur_mesh_reader_fail(reader, "index %lu is not a %s: there are %zu",
                                         (unsigned long)self->largest[kind], kind_names[kind],
                                         count_of(self, kind));
         }

@@ -115,7 +115,7 @@ static aur_result read_face(off *self, size_t face) {
         size_t vertex = 0;
         result = read_count(self, "a vertex of the face", &vertex);
         if (result == AUR_OK && vertex >= reader->data->vertex_count)
-            result = aur_mesh_reader_fail(reader, "face %zu: index %zu is no vertex: there are %zu", face,
+            result = aur_mesh_reader_fail(reader, "face %zu: index %zu is not a vertex: there are %zu", face,
                                           vertex, reader->data->vertex_count);
         if (result == AUR_OK)
             result = aur_mesh_reader_add_corner(reader, (uint32_t)vertex);

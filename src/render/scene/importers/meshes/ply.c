@@ -77,8 +77,8 @@ static aur_result read_text(aur_ply *self, const aur_ply_element *element, size_
 static aur_result add_corner(aur_ply *self, size_t face, double value) {
     const size_t vertex_count = self->vertices->count;
     if (!(value >= 0.0) || !(value < (double)vertex_count) || value != (double)(uint32_t)value)
-        return aur_mesh_reader_fail(self->reader, "face %zu: index %.10g is no vertex: there are %zu", face,
-                                    value, vertex_count);
+        return aur_mesh_reader_fail(self->reader, "face %zu: index %.10g is not a vertex: there are %zu",
+                                    face, value, vertex_count);
     return aur_mesh_reader_add_corner(self->reader, (uint32_t)value);
 }
 

@@ -90,7 +90,7 @@ static void warn_of(const aur_named_files *self, const aur_name_list *names, con
 }
 
 void aur_named_warn(const aur_named_files *self) {
-    warn_of(self, &self->renamed, "file is found under another name", "files are found under other names");
+    warn_of(self, &self->renamed, "file has another spelling", "files have other spellings");
     warn_of(self, &self->missing, "file cannot be found", "files cannot be found");
     warn_of(self, &self->missing_images, "texture is left out: its image cannot be found",
             "textures are left out: their images cannot be found");

@@ -115,7 +115,7 @@ aur_rad_material *aur_rad_find_material(const aur_rad *self, aur_rad_word name) 
 }
 
 static aur_result fail_modifier(const aur_rad *self, aur_rad_word name) {
-    return aur_rad_fail(self, name.line, AUR_ERROR_NAME, "there is no material '%.*s' above",
+    return aur_rad_fail(self, name.line, AUR_ERROR_NAME, "unknown material '%.*s': it is not defined above",
                         (int)name.length, name.text);
 }
 
@@ -353,7 +353,7 @@ static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) 
         self->words[(*count)++] = word;
     }
     return *count > 0 ? AUR_OK
-                      : aur_rad_fail(self, command.line, AUR_ERROR_FORMAT, "a command must stand after '!'");
+                      : aur_rad_fail(self, command.line, AUR_ERROR_FORMAT, "a command must follow '!'");
 }
 
 static aur_result fail_command(const aur_rad *self, aur_rad_word word, const char *after) {

@@ -82,7 +82,7 @@ static aur_result take_turn(aur_rad *self, const aur_rad_primitive *item, size_t
     if (result == AUR_OK) {
         const aur_rad_pose pose = aur_rad_pose_multiply(&self->pose, &self->poses[0]);
         if (aur_rad_pose_mirrors(&pose))
-            result = fail(self, item, "the mirror image of a lamp is not read");
+            result = fail(self, item, "a mirrored luminaire is not read");
         for (size_t i = 0; i < 3; ++i)
             for (size_t k = 0; k < 3; ++k)
                 luminaire->turn[i][k] = pose.m[4 * i + k] / pose.scale;
@@ -322,10 +322,10 @@ aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
                             "the cone of the spotlight is behind its surface: turn one of them");
     if (!measure(self, luminaire, item, &measured))
-        return fail(
-            self, item,
-            "a measured lamp is read on a polygon (a rectangle along its axes) or ring with flatcorr, or on "
-            "a sphere with corr; a spotlight on a rectangle, a ring without a hole or a sphere");
+        return fail(self, item,
+                    "a measured luminaire is read on a polygon (a rectangle along its axes) or ring with "
+                    "flatcorr, or on "
+                    "a sphere with corr; a spotlight on a rectangle, a ring without a hole or a sphere");
     size_t size = 0;
     char *const text = write_ies(luminaire, &measured, &size);
     if (text == NULL)

@@ -216,8 +216,8 @@ bool aur_rad_is_modifier(aur_rad_word type) {
 }
 
 static aur_result fail_diffuse(const aur_rad *self, const aur_rad_primitive *item) {
-    return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED,
-                        "the diffuse part of '%.*s' is not known", (int)item->type.length, item->type.text);
+    return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED, "the diffuse part of '%.*s' is unknown",
+                        (int)item->type.length, item->type.text);
 }
 
 /* BSDF: thickness FILE ..., or aBSDF: FILE ...; BSDF may add diffuse R G B of the front, of the back and
@@ -231,7 +231,7 @@ static aur_result add_matrix(aur_rad *self, const aur_rad_primitive *item, aur_r
                             (int)item->type.length, item->type.text);
     if (thickness != 0.0)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED,
-                            "BSDF: a thickness of %g stands for geometry inside: 0 expected", thickness);
+                            "BSDF: a thickness of %g means geometry inside: expected 0", thickness);
     const aur_result result = aur_rad_bsdf_read(self, item->strings[at], &means);
     if (result == AUR_ERROR_OPEN)
         return AUR_ERROR_UNSUPPORTED; /* it may be unused */

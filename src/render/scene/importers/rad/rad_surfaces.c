@@ -151,7 +151,7 @@ static aur_result read_file_and_poses(aur_rad *self, const aur_rad_primitive *it
                             item->row->name);
     if (ends_with(*file, compiled))
         return aur_rad_fail(self, file->line, AUR_ERROR_UNSUPPORTED,
-                            "%s: '%.*s' is compiled for Radiance; name the %s that it was made from",
+                            "%s: '%.*s' is compiled for Radiance: name the %s it was compiled from",
                             item->row->name, (int)file->length, file->text, source);
     size_t used = 0;
     aur_result result = aur_rad_check_name(self, *file);

@@ -83,8 +83,8 @@ bool aur_rad_number(aur_rad_word word, double *number) {
 
 aur_result aur_rad_fail_end(const aur_rad *self, const char *what, aur_rad_word word) {
     return word.length == 0
-               ? aur_rad_fail(self, word.line, AUR_ERROR_FORMAT, "the file ends where %s must stand", what)
-               : aur_rad_fail(self, word.line, AUR_ERROR_FORMAT, "%s must stand here, not '%.*s'", what,
+               ? aur_rad_fail(self, word.line, AUR_ERROR_FORMAT, "the file ends, but %s must follow", what)
+               : aur_rad_fail(self, word.line, AUR_ERROR_FORMAT, "expected %s here, not '%.*s'", what,
                               word.length > 40 ? 40 : (int)word.length, word.text);
 }
 

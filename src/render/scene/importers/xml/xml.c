@@ -205,7 +205,7 @@ static aur_result open_element(file_reading *reader, const char *tag, const char
     aur_xml_node *const parent = reader->depth > 0 ? reader->open[reader->depth] : reader->target;
     reader->open[++reader->depth] = NULL;
     if (reader->depth > 1 && parent == NULL)
-        return aur_xml_fail(node, error, "<%s> cannot stand here", tag);
+        return aur_xml_fail(node, error, "<%s> is not allowed here", tag);
     if (strcmp(tag, "scene") == 0) {
         if (reader->depth > 1)
             return aur_xml_fail(node, error, "<scene> must be the first element");
@@ -542,8 +542,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         result = aur_xml_variables_finish(&shared.variables, path, error);
     if (shared.rad.diffuse_count > 0)
         aur_warn_at(&options->warnings, (aur_location){.file = path},
-                    "%zu patterns, textures and materials of Radiance are not read: what they have that is "
-                    "diffuse stands for them",
+                    "%zu patterns, textures and materials of Radiance are not read: their diffuse part "
+                    "replaces them",
                     shared.rad.diffuse_count);
     free(shared.variables.items);
     aur_rad_scene_release(&shared.rad);
