@@ -59,10 +59,10 @@ def main():
     for name in names:
         ffi.cdef(declarations((include / name).read_text(), native))
     if native:
-        own = pathlib.Path(__file__).with_name("native.c").read_text()
+        native = pathlib.Path(__file__).with_name("native.c").read_text()
         ffi.cdef('extern "Python" {' + CALLBACKS + "}")
-        ffi.cdef(declarations(own, True))
-        ffi.set_source("aureole._native", "".join(f"#include <{name}>\n" for name in names) + own)
+        ffi.cdef(declarations(native, True))
+        ffi.set_source("aureole._native", "".join(f"#include <{name}>\n" for name in names) + native)
         ffi.emit_c_code(out)
     else:
         ffi.set_source("aureole._library", None)

@@ -13,7 +13,7 @@ import numpy as np
 Progress = Callable[[str, int, int], Any]
 Seed = Union[None, int, np.integer, np.random.SeedSequence, np.random.BitGenerator, np.random.Generator, np.random.RandomState]
 _Self = TypeVar("_Self", bound="Call")
-_Made = TypeVar("_Made", bound="Rebuilt")
+_Rebuilt = TypeVar("_Rebuilt", bound="Rebuilt")
 
 
 class Error(Exception):
@@ -97,8 +97,8 @@ class Bridge:
             return
         message = self.text(error.message) or self.text(self.lib.aur_result_string(result)) or ""
         file = self.text(error.file) or ""
-        place = ":".join([file] * bool(file) + [str(n) for n in (error.line, error.column) if n])
-        raised = _ERRORS.get(result, InternalError)(f"{place}: {message}" if place else message)
+        location = ":".join([file] * bool(file) + [str(n) for n in (error.line, error.column) if n])
+        raised = _ERRORS.get(result, InternalError)(f"{location}: {message}" if location else message)
         raised.result = self.text(self.lib.aur_result_string(result)) or ""
         raised.file, raised.line, raised.column = file, error.line, error.column
         raise raised
@@ -112,15 +112,15 @@ class Bridge:
             raise ArgumentError(f"a number is out of range: {reason}") from reason
         self.check(result, error)
 
-    def make(self, kind: str, *arguments: Any, keep: Any = None) -> Any:
+    def make(self, kind: str, *arguments: Any, alive: Any = None) -> Any:
         """What `aur_KIND_create(..., &made, error)` makes; it is destroyed with the last reference to it, before `keep`."""
-        made = self.ffi.new(f"aur_{kind} **")
-        self.call(getattr(self.lib, f"aur_{kind}_create"), *arguments, made)
-        return self.own(kind, made, keep)
+        pointer = self.ffi.new(f"aur_{kind} **")
+        self.call(getattr(self.lib, f"aur_{kind}_create"), *arguments, pointer)
+        return self.own(kind, pointer, alive)
 
-    def own(self, kind: str, made: Any, keep: Any = None) -> Any:
+    def own(self, kind: str, pointer: Any, alive: Any = None) -> Any:
         destroy = getattr(self.lib, f"aur_{kind}_destroy")
-        return self.ffi.gc(made[0], destroy if keep is None else lambda pointer, kept=keep: destroy(pointer))
+        return self.ffi.gc(pointer[0], destroy if alive is None else lambda pointer, alive=alive: destroy(pointer))
 
     def value(self, kind: str, name: str) -> int:
         """The value of the enumeration aur_KIND that a name stands for."""
@@ -196,10 +196,10 @@ class Rebuilt:
 
     _arguments: tuple[tuple[Any, ...], dict[str, Any]]
 
-    def __new__(cls: type[_Made], *arguments: Any, **named: Any) -> _Made:
-        made = super().__new__(cls)
-        made._arguments = arguments, named
-        return made
+    def __new__(cls: type[_Rebuilt], *arguments: Any, **named: Any) -> _Rebuilt:
+        rebuilt = super().__new__(cls)
+        rebuilt._arguments = arguments, named
+        return rebuilt
 
     def __reduce__(self) -> tuple[Any, ...]:
         arguments, named = self._arguments
@@ -268,23 +268,23 @@ def encode(text: Any) -> bytes:
 
 def rows(array: Any, dimension: int = 0, name: str = "points") -> np.ndarray:
     """An array of double precision with a row a point; it is copied only where its type or layout asks for it."""
-    made = as_array(array)
-    if made.ndim == 1 and dimension == 1:
-        made = made[:, np.newaxis]
-    if made.ndim != 2 or (dimension and made.shape[1] != dimension):
-        wanted = dimension if dimension else "d"
-        raise ArgumentError(f"{name} must have the shape (n, {wanted}), not {made.shape}")
-    return np.ascontiguousarray(made)
+    converted = as_array(array)
+    if converted.ndim == 1 and dimension == 1:
+        converted = converted[:, np.newaxis]
+    if converted.ndim != 2 or (dimension and converted.shape[1] != dimension):
+        expected = dimension if dimension else "d"
+        raise ArgumentError(f"{name} must have the shape (n, {expected}), not {converted.shape}")
+    return np.ascontiguousarray(converted)
 
 
 def vector(array: Any, count: int, name: str) -> np.ndarray:
-    made = np.ascontiguousarray(as_array(array))
-    if made.shape != (count,):
-        raise ArgumentError(f"{name} must have the shape ({count},), not {made.shape}")
-    return made
+    converted = np.ascontiguousarray(as_array(array))
+    if converted.shape != (count,):
+        raise ArgumentError(f"{name} must have the shape ({count},), not {converted.shape}")
+    return converted
 
 
-class _Kept:
+class _View:
     """An array of the library's, for NumPy to look at in its place; it keeps what owns the array."""
 
     def __init__(
@@ -298,18 +298,18 @@ class _Kept:
         }  # fmt: skip
 
 
-def kept(
+def view_of(
     bridge: Bridge, owner: Any, pointer: Any, shape: tuple[int, ...], kind: str = "<f8",
     strides: Optional[tuple[int, ...]] = None, domain: Optional[str] = None,
 ) -> np.ndarray:  # fmt: skip
     """The library's array at `pointer` without a copy; `owner` lives as long as the array, which knows its `domain`."""
     if 0 in shape:
         return np.empty(shape, dtype=kind)
-    return np.asarray(_Kept(owner, int(bridge.ffi.cast("uintptr_t", pointer)), shape, kind, strides, domain))
+    return np.asarray(_View(owner, int(bridge.ffi.cast("uintptr_t", pointer)), shape, kind, strides, domain))
 
 
-def domain_kept(array: Any) -> Optional[str]:
+def view_domain(array: Any) -> Optional[str]:
     """The domain of points that the library made, where `array` is such an array or rows of one; else None."""
     while isinstance(array, np.ndarray):
         array = array.base
-    return array.domain if isinstance(array, _Kept) else None
+    return array.domain if isinstance(array, _View) else None

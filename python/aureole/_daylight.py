@@ -85,7 +85,7 @@ def daylight(
         raise ArgumentError(f"efficacy must be one of {', '.join(_EFFICACIES)}, not {efficacy!r}")
     read = ffi.new("aur_weather **")
     library.call(lib.aur_weather_read, encode(weather), read)
-    known = library.own("weather", read)
+    parsed = library.own("weather", read)
     view = library.options("sensors_view", count=len(where), positions=library.input(where), normals=library.input(along))
     found = np.zeros(
         len(where),
@@ -103,7 +103,7 @@ def daylight(
         )  # fmt: skip
         _hours = _schedule(library, schedule, options)
         library.call(
-            lib.aur_daylight_estimate, loaded._scene, view, lib.aur_weather_get_view(known), call.attach(options),
+            lib.aur_daylight_estimate, loaded._scene, view, lib.aur_weather_get_view(parsed), call.attach(options),
             found.dtype.itemsize, library.output(found, "aur_daylight"), summary,
         )  # fmt: skip
     return Daylight(
@@ -170,10 +170,10 @@ def bifacial(
     for i, normal in enumerate(distinct):
         if not normal.any():
             continue
-        places = rows(positions(normal) if callable(positions) else positions, 3, "positions")
-        count = len(places)
+        origins = rows(positions(normal) if callable(positions) else positions, 3, "positions")
+        count = len(origins)
         year = daylight(
-            scene(normal) if callable(scene) else scene, np.vstack([places, places]),
+            scene(normal) if callable(scene) else scene, np.vstack([origins, origins]),
             np.repeat([normal, -normal], count, axis=0), weather, **{**options, "efficacy": "none"},
         )  # fmt: skip
         if len(table) not in (1, year.hours.shape[1]):

@@ -7,7 +7,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, Progress, encode, kept, rows
+from ._bridge import ArgumentError, Progress, encode, rows, view_of
 from ._library import ffi
 from ._render import Array, Path, Texts, _Call, _lighting
 
@@ -84,7 +84,7 @@ def _emittances(facets: Any) -> Array:
     found = library.lib.aur_facets_emittances(facets)
     if found == ffi.NULL:
         raise ArgumentError("the file has no emittances: give them")
-    return np.array(kept(library, facets, found, (library.lib.aur_facets_rows(facets),)))
+    return np.array(view_of(library, facets, found, (library.lib.aur_facets_rows(facets),)))
 
 
 def viewfactors(
@@ -112,19 +112,19 @@ def viewfactors(
         factors = library.make("view_factors", loaded, call.attach(options))
     if script is not False:
         emittances = _emittances(loaded) if script is True else _per_row(loaded, script, "script")
-        made = ffi.new("aur_view_factors **")
-        library.call(lib.aur_view_factors_script, factors, library.input(emittances), confidence or 0.95, made)
-        factors = library.own("view_factors", made)
+        pointer = ffi.new("aur_view_factors **")
+        library.call(lib.aur_view_factors_script, factors, library.input(emittances), confidence or 0.95, pointer)
+        factors = library.own("view_factors", pointer)
     matrix = library.options("view_factors_matrix")
     library.call(lib.aur_view_factors_get_matrix, factors, matrix)
     count = matrix.rows
-    starts = kept(library, factors, matrix.starts, (count + 1,), "<u8")
+    starts = view_of(library, factors, matrix.starts, (count + 1,), "<u8")
     entries = int(starts[count])
     return ViewFactors(
-        starts, kept(library, factors, matrix.columns, (entries,), "<u4"),
-        kept(library, factors, matrix.values, (entries,)), kept(library, factors, matrix.half_widths, (entries,)),
-        kept(library, factors, matrix.areas, (count,)), kept(library, factors, matrix.sky, (count,)),
-        kept(library, factors, matrix.back, (count,)), _names(loaded),
+        starts, view_of(library, factors, matrix.columns, (entries,), "<u4"),
+        view_of(library, factors, matrix.values, (entries,)), view_of(library, factors, matrix.half_widths, (entries,)),
+        view_of(library, factors, matrix.areas, (count,)), view_of(library, factors, matrix.sky, (count,)),
+        view_of(library, factors, matrix.back, (count,)), _names(loaded),
     )  # fmt: skip
 
 
@@ -159,15 +159,15 @@ def radiosities(
     light = library.options(
         "facets_light", sky=sky, sun=tuple(np.asarray(sun, float)), reflectances=library.input(reflected), emissions=library.input(emitted)
     )
-    wanted = library.options("facets_radiosities", **{name: library.output(found[i]) for i, name in enumerate(names)})
+    solved = library.options("facets_radiosities", **{name: library.output(found[i]) for i, name in enumerate(names)})
     with _Call(progress) as call:
         options = call.attach(library.options(
             "view_factors_options", rays=rays, randomizations=randomizations, seed=seed, threads=threads,
             confidence=confidence, half_planes=half_planes, error=error,
         ))  # fmt: skip
         factors = ffi.NULL if matrix_free else library.make("view_factors", loaded, options)
-        library.call(lib.aur_view_factors_solve, loaded, factors, options, light, wanted)
-    areas = np.array(kept(library, loaded, lib.aur_facets_areas(loaded), (count,)))
+        library.call(lib.aur_view_factors_solve, loaded, factors, options, light, solved)
+    areas = np.array(view_of(library, loaded, lib.aur_facets_areas(loaded), (count,)))
     return Radiosities(found[0], found[1], found[3], found[4], found[0] - found[3], found[2], areas, _names(loaded))
 
 

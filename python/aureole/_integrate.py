@@ -46,15 +46,15 @@ def _values(function: Callable[..., Any], *arguments: Array) -> Array:
     returned = function(*arguments)
     if returned is None or np.ma.is_masked(returned):
         raise ArgumentError("the function must return numbers, not " + ("None" if returned is None else "masked values"))
-    made = np.asarray(returned)
-    if made.dtype.kind not in "biufcO":  # NumPy would make numbers of strings, dates and records
-        raise TypeError(f"the function must return numbers, not {made.dtype}")
-    made = made.astype(np.complex128 if np.iscomplexobj(made) else np.float64)  # a copy: it may be a view of them
-    if made.ndim == 0:
-        made = np.full(count, made[()])
-    if len(made) != count or made.size == 0:
-        raise ArgumentError(f"the function must return one row of values per point, ({count}, ...), not {made.shape}")
-    return made
+    values = np.asarray(returned)
+    if values.dtype.kind not in "biufcO":  # NumPy would make numbers of strings, dates and records
+        raise TypeError(f"the function must return numbers, not {values.dtype}")
+    values = values.astype(np.complex128 if np.iscomplexobj(values) else np.float64)  # a copy: it may be a view of them
+    if values.ndim == 0:
+        values = np.full(count, values[()])
+    if len(values) != count or values.size == 0:
+        raise ArgumentError(f"the function must return one row of values per point, ({count}, ...), not {values.shape}")
+    return values
 
 
 class _Integrand:
@@ -74,28 +74,28 @@ class _Integrand:
         first, self.first = self.first, None
         if first is not None and all(map(np.array_equal, first[0], arguments)):
             return first[1]
-        kept = tuple(array.copy() for array in arguments)
-        made = _values(self.function, *arguments)
+        copies = tuple(array.copy() for array in arguments)
+        result = _values(self.function, *arguments)
         if self.type is complex:
-            made = made.astype(np.complex128)
-        if made.shape[1:] != self.shape or made.dtype.type is np.complex128 and self.type is not complex:
-            self.shape = made.shape[1:]
-            self.type = complex if np.iscomplexobj(made) else float
-            self.first = (kept, np.ascontiguousarray(made).view(np.float64).ravel())
+            result = result.astype(np.complex128)
+        if result.shape[1:] != self.shape or result.dtype.type is np.complex128 and self.type is not complex:
+            self.shape = result.shape[1:]
+            self.type = complex if np.iscomplexobj(result) else float
+            self.first = (copies, np.ascontiguousarray(result).view(np.float64).ravel())
             raise _Shape
-        return np.ascontiguousarray(made).view(np.float64).ravel()
+        return np.ascontiguousarray(result).view(np.float64).ravel()
 
     def shaped(self, column: Array) -> Any:
         """Numbers of all values in the shape of one point's; a number where that has none."""
-        made = np.array(column)
+        result = np.array(column)
         if self.type is complex:
-            made = made.view(np.complex128)
-        return made.reshape(self.shape)[()] if self.shape else made[0].item()
+            result = result.view(np.complex128)
+        return result.reshape(self.shape)[()] if self.shape else result[0].item()
 
     def widths(self, column: Array) -> Any:
         """The same of half widths, which are of a complex number's modulus."""
-        made = self.shaped(column)
-        return abs(made) if self.type is complex else made
+        result = self.shaped(column)
+        return abs(result) if self.type is complex else result
 
 
 def _integrate(
@@ -114,15 +114,15 @@ def _integrate(
         if np.shape(axis) != (2,):
             raise ArgumentError(f"an axis is (a, b), not {axis!r}")
         core.fill(options, has_axis=True, axis_from=axis[0], axis_to=axis[1])
-    kept, made = [name and ffi.new("char[]", encode(name))], ffi.new("aur_integrate_peak[]", len(peaks))
-    for row, peak in zip(made, peaks):
+    alive, peak_rows = [name and ffi.new("char[]", encode(name))], ffi.new("aur_integrate_peak[]", len(peaks))
+    for row, peak in zip(peak_rows, peaks):
         if not isinstance(peak, (tuple, list)) or len(peak) not in (2, 3):
             raise ArgumentError(f"a peak is (centre, radius) or (centre, radius, exponent), not {peak!r}")
         centre, radius, *exponent = peak
         point = vector(np.atleast_1d(centre), lib.aur_integrate_coordinates(options), "the centre of a peak")
-        kept.append(ffi.new("double[]", point.tolist()))
-        core.fill(row, centre=kept[-1], radius=radius, exponent=exponent[0] if exponent else 0.0)
-    core.fill(options, peak_count=len(peaks), peaks=made, set=kept[0] or ffi.NULL)
+        alive.append(ffi.new("double[]", point.tolist()))
+        core.fill(row, centre=alive[-1], radius=radius, exponent=exponent[0] if exponent else 0.0)
+    core.fill(options, peak_count=len(peaks), peaks=peak_rows, set=alive[0] or ffi.NULL)
     integrand = _Integrand(f)
     for _ in range(3):
         width = integrand.width
@@ -180,10 +180,10 @@ def symmetric_rule(n: int, symmetry: str) -> tuple[Array, Array]:
 
 def _symmetric(f: Callable[..., Any], xyz: Array, weights: Array) -> tuple[Any, int, bool]:
     """The mean by a symmetric rule, its number of points, and whether all values were equal."""
-    made = _values(f, xyz.copy())
-    if not np.isfinite(made).all():
+    result = _values(f, xyz.copy())
+    if not np.isfinite(result).all():
         raise ArgumentError("the function has a value that is not finite")
-    return np.tensordot(weights, made, 1)[()], len(xyz), bool((made == made[0]).all())
+    return np.tensordot(weights, result, 1)[()], len(xyz), bool((result == result[0]).all())
 
 
 def integrate(

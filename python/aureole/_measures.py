@@ -7,7 +7,7 @@ from typing import Iterable, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import Progress, Rebuilt, Seed, encode, kept, rows, vector
+from ._bridge import Progress, Rebuilt, Seed, encode, rows, vector, view_of
 from ._core import CoreCall, core, ffi, lib
 from ._points import Array, Domain, View, domain_of, parse_lobe
 
@@ -83,11 +83,11 @@ def _measure(name: str, view: object, options: object) -> Union[float, Series]:
         value = ffi.new("double *")
         core.call(lib.aur_measure, encode(name), view, options, value)
         return value[0]
-    made = ffi.new("aur_series **")
-    core.call(lib.aur_measure_series, encode(name), view, options, made)
-    series = core.own("series", made)
+    pointer = ffi.new("aur_series **")
+    core.call(lib.aur_measure_series, encode(name), view, options, pointer)
+    series = core.own("series", pointer)
     shape = lib.aur_series_row_count(series), lib.aur_series_column_count(series)
-    table = kept(core, series, lib.aur_series_values(series), shape)
+    table = view_of(core, series, lib.aur_series_values(series), shape)
     return {core.text(lib.aur_series_column(series, column)) or "": table[:, column] for column in range(shape[1])}
 
 
@@ -118,15 +118,15 @@ class Nearest(Rebuilt):
         Nearest first, of equally near ones the smaller index first. Distances are angles in radians where the points
         are directions, axes or rotations.
         """
-        asked = rows(queries, self._dimension, "queries")
-        shape = len(asked), max(1, neighbours)
+        query_rows = rows(queries, self._dimension, "queries")
+        shape = len(query_rows), max(1, neighbours)
         indices, distances = np.empty(shape, dtype=np.uint64), np.empty(shape)
         with CoreCall(progress) as call:
             options = call.attach(
                 core.options("nearest_options", neighbours=neighbours, threads=threads), warnings=False
             )
             core.call(
-                lib.aur_nearest_find, self._tree, options, len(asked), core.input(asked),
+                lib.aur_nearest_find, self._tree, options, len(query_rows), core.input(query_rows),
                 core.output(indices, "size_t"), core.output(distances),
             )  # fmt: skip
         return indices, distances

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._bridge import (
-    ArgumentError, AureoleWarning, Rebuilt, Seed, UnsupportedError, as_array, domain_kept, encode, kept, seed_number, vector,
+    ArgumentError, AureoleWarning, Rebuilt, Seed, UnsupportedError, as_array, encode, seed_number, vector, view_domain,
+    view_of,
 )  # fmt: skip
 from ._core import CoreCall, core, ffi, lib
 
@@ -48,16 +49,16 @@ def _select(found: Array, weights: Optional[Array], symmetry: str, domain: str) 
     group, crystal, _ = parse_symmetry(symmetry, domain)
     array, mass = np.array(found), np.ones(len(found)) if weights is None else np.array(weights)
     if group is None:
-        kept = lib.aur_symmetry_select(crystal, len(array), core.output(array))
+        count = lib.aur_symmetry_select(crystal, len(array), core.output(array))
     else:
-        kept = lib.aur_point_group_select(group, len(array), core.output(array), core.output(mass))
-    if kept == 0:
+        count = lib.aur_point_group_select(group, len(array), core.output(array), core.output(mass))
+    if count == 0:
         raise ArgumentError(f"none of the {len(found)} points is in the fundamental region: take more")
-    total = mass[:kept].sum()
+    total = mass[:count].sum()
     if weights is not None and (group is None or abs(total - 1.0) > 1e-9):
         raise ArgumentError(f"the set has weights and not this symmetry: those of the region add up to {total:.6g}")
-    found[:kept] = array[:kept]
-    return found[:kept], mass[:kept] / total
+    found[:count] = array[:count]
+    return found[:count], mass[:count] / total
 
 
 def directions_options(
@@ -75,13 +76,13 @@ def directions_options(
     return call.attach(options, progress=False)
 
 
-def look(made: Any) -> tuple[Array, Optional[Array], str]:
+def contents(owner: Any) -> tuple[Array, Optional[Array], str]:
     """The library's points as they lie there, their weights or None, and their domain."""
-    view = lib.aur_points_get_view(made)
+    view = lib.aur_points_get_view(owner)
     stride = 8 * (view.stride or view.dimension)
     domain = core.text(lib.aur_domain_name(view.domain)) or ""
-    points = kept(core, made, view.coordinates, (view.count, view.dimension), strides=(stride, 8), domain=domain)
-    weights = None if view.weights == ffi.NULL else kept(core, made, view.weights, (view.count,))
+    points = view_of(core, owner, view.coordinates, (view.count, view.dimension), strides=(stride, 8), domain=domain)
+    weights = None if view.weights == ffi.NULL else view_of(core, owner, view.weights, (view.count,))
     return points, weights, domain
 
 
@@ -158,9 +159,9 @@ def points(
         request = ffi.new("aur_points_request *")
         core.initialize(request, lib.aur_points_request_init, options)
         core.fill(request, natural_domain=domain is None, dimension=dimension, first=first, count=count)
-        made = ffi.new("aur_points **")
-        core.call(lib.aur_points_generate, encode(set), request, made)
-        found, found_weights, of = look(core.own("points", made))
+        pointer = ffi.new("aur_points **")
+        core.call(lib.aur_points_generate, encode(set), request, pointer)
+        found, found_weights, of = contents(core.own("points", pointer))
     mass = np.full(len(found), 1.0 / len(found)) if found_weights is None and weights else found_weights
     below = int((found[:, 2] < 0.0).sum()) if of == "hemisphere" and lobe.startswith(("ggx", "visible")) else 0
     if below:
@@ -189,14 +190,14 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
     (array([[0. , 0. ],
            [0.5, 0.5]]), None, 'square')
     """
-    made = ffi.new("aur_points **")
+    pointer = ffi.new("aur_points **")
     if domain is None:
-        core.call(lib.aur_points_read, encode(path), ffi.NULL, made)
-        if lib.aur_points_get_view(made[0]).guessed:
-            _warn(core.text(lib.aur_domain_name(lib.aur_points_get_view(made[0]).domain)) or "", os.fspath(path))
+        core.call(lib.aur_points_read, encode(path), ffi.NULL, pointer)
+        if lib.aur_points_get_view(pointer[0]).guessed:
+            _warn(core.text(lib.aur_domain_name(lib.aur_points_get_view(pointer[0]).domain)) or "", os.fspath(path))
     else:
-        core.call(lib.aur_points_read, encode(path), ffi.new("aur_domain *", core.value("domain", domain)), made)
-    return look(core.own("points", made))
+        core.call(lib.aur_points_read, encode(path), ffi.new("aur_domain *", core.value("domain", domain)), pointer)
+    return contents(core.own("points", pointer))
 
 
 def write(
@@ -268,9 +269,9 @@ def domain_of(array: NDArray[np.float64]) -> Domain:
         "hemisphere": above, "sphere": columns == 3 and unit, "axes": columns == 3 and unit,
         "rotations": columns == 4 and unit,
     }  # fmt: skip
-    known = domain_kept(array)
-    if known is not None and fits[known]:
-        return known  # type: ignore[return-value]
+    stored = view_domain(array)
+    if stored is not None and fits[stored]:
+        return stored  # type: ignore[return-value]
     if columns == 2:
         return "square"
     if columns not in (3, 4) or not len(array):
@@ -536,7 +537,7 @@ def write_into(count: int, columns: int, out: Any, dtype: DTypeLike, generate: C
     if output is not None:
         generate(output)
     else:
-        made = np.empty(array.shape, dtype=array.dtype)
-        generate(plain_output(made))
-        array[...] = made
+        filled = np.empty(array.shape, dtype=array.dtype)
+        generate(plain_output(filled))
+        array[...] = filled
     return array if out is None else out

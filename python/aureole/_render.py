@@ -10,14 +10,14 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, kept, rows
+from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, rows, view_of
 from ._core import core
 from ._library import ffi
 from ._sets import attach
 from ._tables import Row, read_tables
 
 Array = NDArray[np.float64]
-Picture = NDArray[np.float32]
+ImageArray = NDArray[np.float32]
 Path = Union[str, os.PathLike[str]]
 
 _NAMES = "libaureole-lab.so.1", "libaureole-lighting.so.1", "libaureole-render.so.1"  # each loads those after it
@@ -40,24 +40,24 @@ def _library() -> Bridge:
         return next(iter(_opened.values()))
     named = os.environ.get("AUREOLE_RENDER_LIBRARY")
     package = importlib.util.find_spec("aureole_render")
-    places = [named] if named else []
+    candidates = [named] if named else []
     if not named and package is not None and package.origin is not None:
-        places += [str(pathlib.Path(package.origin).with_name(name)) for name in _NAMES]
+        candidates += [str(pathlib.Path(package.origin).with_name(name)) for name in _NAMES]
     if not named:
-        places += _NAMES
+        candidates += _NAMES
     tried = []
-    for place in places:
+    for candidate in candidates:
         try:
             # It stays until the process ends: its threads and what it made may outlive this module.
-            library = ffi.dlopen(place, ffi.RTLD_NOW | ffi.RTLD_NODELETE)
+            library = ffi.dlopen(candidate, ffi.RTLD_NOW | ffi.RTLD_NODELETE)
         except OSError as error:
             tried.append(str(error))
             continue
         bridge = Bridge(ffi, library)
-        version, own = bridge.text(library.aur_version()), core.text(core.lib.aur_version())
-        if version != own:
-            raise ImportError(f"{place} is of version {version}, and this package of {own}: install the same of both")
-        _opened[place] = bridge
+        version, expected = bridge.text(library.aur_version()), core.text(core.lib.aur_version())
+        if version != expected:
+            raise ImportError(f"{candidate} is of version {version}, and this package of {expected}: install the same of both")
+        _opened[candidate] = bridge
         attach(bridge)
         return bridge
     raise ImportError(
@@ -108,18 +108,18 @@ class Texts:
     """C texts that live as long as this."""
 
     def __init__(self) -> None:
-        self.kept: list[Any] = []
+        self.alive: list[Any] = []
 
     def __call__(self, text: Any) -> Any:
         if text is None:
             return ffi.NULL
-        self.kept.append(ffi.new("char[]", encode(text)))
-        return self.kept[-1]
+        self.alive.append(ffi.new("char[]", encode(text)))
+        return self.alive[-1]
 
     def definitions(self, definitions: Optional[Mapping[str, Any]]) -> dict[str, Any]:
-        made = [(self(name), self(str(value))) for name, value in (definitions or {}).items()]
-        self.kept.append(ffi.new("aur_definition[]", made))
-        return {"definition_count": len(made), "definitions": self.kept[-1]}
+        pairs = [(self(name), self(str(value))) for name, value in (definitions or {}).items()]
+        self.alive.append(ffi.new("aur_definition[]", pairs))
+        return {"definition_count": len(pairs), "definitions": self.alive[-1]}
 
 
 class SceneDescription(NamedTuple):
@@ -151,7 +151,7 @@ class Scene(Rebuilt):
         self, path: Path, *, definitions: Optional[Mapping[str, Any]] = None, confine: bool = False,
         text: Union[str, bytes, None] = None, model_light: str = "auto", further: Sequence[Path] = (), diffuse: bool = False,
     ):  # fmt: skip
-        library, texts, made = _library(), Texts(), ffi.new("aur_scene **")
+        library, texts, pointer = _library(), Texts(), ffi.new("aur_scene **")
         options = library.options("scene_options", confine=confine, diffuse=diffuse, **texts.definitions(definitions))
         more = ffi.new("const char *[]", [texts(os.fspath(name)) for name in further] or [ffi.NULL])
         options.further_count, options.further = len(further), more
@@ -159,11 +159,11 @@ class Scene(Rebuilt):
         with _Call() as call:
             call.attach(options)
             if text is None:
-                library.call(library.lib.aur_scene_load, encode(path), options, made)
+                library.call(library.lib.aur_scene_load, encode(path), options, pointer)
             else:
                 data = text.encode() if isinstance(text, str) else text
-                library.call(library.lib.aur_scene_load_memory, encode(path), len(data), data, options, made)
-            self._scene = library.own("scene", made)
+                library.call(library.lib.aur_scene_load_memory, encode(path), len(data), data, options, pointer)
+            self._scene = library.own("scene", pointer)
 
     def describe(self) -> SceneDescription:
         """What is in the scene."""
@@ -192,7 +192,7 @@ def render(
     crop: Optional[tuple[int, int, int, int]] = None, seed: int = 0, threads: int = 0,
     error: Optional[float] = None, error_measure: str = "relative", channels: Optional[Sequence[str]] = None,
     clamp: float = 0.0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
-) -> Picture:  # fmt: skip
+) -> ImageArray:  # fmt: skip
     """An image of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
 
     Parameters
@@ -218,7 +218,7 @@ def render(
     if crop is not None:
         options.crop_x0, options.crop_x1, options.crop_y0, options.crop_y1 = crop
     image = ffi.new("aur_image **")
-    renderer = library.make("renderer", loaded._scene, keep=(loaded,))
+    renderer = library.make("renderer", loaded._scene, alive=(loaded,))
     with _Call(progress) as call:
         call.attach(options)
         if error is None:
@@ -227,41 +227,41 @@ def render(
             measure = ffi.new("aur_error_measure *")
             library.call(library.lib.aur_error_measure_from_name, texts(error_measure), measure)
             target = library.options("adaptive_options", error=error, measure=measure[0])
-            adaptive = library.make("adaptive", renderer, options, target, keep=(renderer, call))
+            adaptive = library.make("adaptive", renderer, options, target, alive=(renderer, call))
             library.call(library.lib.aur_adaptive_run, adaptive)
             library.call(library.lib.aur_adaptive_develop, adaptive, False, image)
-    array, names = _picture(library.own("image", image))
+    array, names = _image_array(library.own("image", image))
     return _select(array, names, channels or ("R", "G", "B"))
 
 
-def _picture(image: Any) -> tuple[Picture, list[str]]:
+def _image_array(image: Any) -> tuple[ImageArray, list[str]]:
     """The library's image as it lies there, and the names of its channels."""
     library = _library()
     lib = library.lib
     shape = lib.aur_image_height(image), lib.aur_image_width(image), lib.aur_image_channel_count(image)
     names = [library.text(lib.aur_image_channel_name(image, index)) or "" for index in range(shape[2])]
-    return kept(library, image, lib.aur_image_data(image), shape, "<f4"), names
+    return view_of(library, image, lib.aur_image_data(image), shape, "<f4"), names
 
 
-def _select(array: Picture, names: list[str], wanted: Sequence[str]) -> Picture:
-    for name in wanted:
+def _select(array: ImageArray, names: list[str], chosen: Sequence[str]) -> ImageArray:
+    for name in chosen:
         if name not in names:
             raise ArgumentError(f"no channel {name!r}; there are {', '.join(names)}")
-    indices = [names.index(name) for name in wanted]
+    indices = [names.index(name) for name in chosen]
     first = indices[0]
     if indices == list(range(first, first + len(indices))):
         return array[:, :, first : first + len(indices)]
     return array[:, :, indices]
 
 
-def read_image(path: Path) -> tuple[Picture, list[str]]:
+def read_image(path: Path) -> tuple[ImageArray, list[str]]:
     """An image (height, width, channels) of float32 and the names of its channels: EXR, PFM, HDR, PNG or JPEG.
 
     PNG and JPEG are decoded from sRGB to linear.
     """
     library, image = _library(), ffi.new("aur_image **")
     library.call(library.lib.aur_image_read, encode(path), image)
-    return _picture(library.own("image", image))
+    return _image_array(library.own("image", image))
 
 
 def _wrap(picture: Union[ArrayLike, Path]) -> tuple[Any, Any]:
@@ -310,12 +310,12 @@ def compare(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path], 
     return value[3]
 
 
-def flip(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path]) -> Picture:
+def flip(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path]) -> ImageArray:
     """LDR-FLIP of each pixel (height, width), in [0, 1] (Andersson et al. 2020)."""
     library = _library()
     (first, _a), (second, _b), image = _wrap(reference), _wrap(picture), ffi.new("aur_image **")
     library.call(library.lib.aur_image_flip, first, second, image)
-    return _picture(library.own("image", image))[0][:, :, 0]
+    return _image_array(library.own("image", image))[0][:, :, 0]
 
 
 class Irradiance(NamedTuple):

@@ -12,15 +12,15 @@ from ._core import core, ffi, lib
 _FORMAT = -20
 _registered: dict[str, tuple[Any, ...]] = {}
 _others: list[Bridge] = []  # libaureole-render has a libaureole of its own
-_kept: list[Any] = []
+_alive: list[Any] = []
 
 
 def _fill(bridge: Bridge, source: Any, count: int, dimension: int, points: Any, weights: Any, error: Any) -> int:
     """Calls the function, and copies what it returns; what it raises becomes the library's message."""
     function, name, cube = source
     try:
-        made = function(count, dimension) if cube else function(count)
-        array, given = made if isinstance(made, tuple) else (made, None)
+        returned = function(count, dimension) if cube else function(count)
+        array, given = returned if isinstance(returned, tuple) else (returned, None)
         found = np.ascontiguousarray(array, dtype=np.float64)
         if found.shape != (count, dimension):
             raise FormatError(f"expected an array of the shape ({count}, {dimension}), not {found.shape}")
@@ -57,7 +57,7 @@ def _register(bridge: Bridge, name: str) -> None:
             error=_FORMAT,
         )
         options.generate = call
-        _kept.append(call)
+        _alive.append(call)
     if source is None:
         options.generate = bridge.ffi.NULL
     bridge.call(bridge.lib.aur_set_register, options)
@@ -85,7 +85,7 @@ def register_set(name: str, function: Optional[Callable[..., Any]], *, domain: s
     """
     source = None if function is None else (function, name, domain == "cube")
     handle = ffi.new_handle(source)
-    _kept.append(handle)  # sets may be made of it at any time
+    _alive.append(handle)  # sets may be made of it at any time
     _registered[name] = source, domain, weighted, handle
     for bridge in (core, *_others):
         _register(bridge, name)

@@ -57,9 +57,9 @@ class Potential(Rebuilt):
         if axis is not None:
             density.axis = vector(axis, 3, "axis").tolist()
         with self._call:
-            made = ffi.new("aur_potential **")
-            core.call(lib.aur_potential_create, density, smoothness, made)
-            self._potential = core.own("potential", made)
+            pointer = ffi.new("aur_potential **")
+            core.call(lib.aur_potential_create, density, smoothness, pointer)
+            self._potential = core.own("potential", pointer)
 
     @property
     def smoothness(self) -> float:
@@ -212,11 +212,11 @@ def weights_solve(
         ffi.new("aur_potential *[]", [potential._potential for potential in potentials]), options, found.size,
         core.output(found), reports, condition,
     )  # fmt: skip
-    made = [
+    described = [
         Report(report.equal_error, report.optimal_error, report.weight_sum, report.visible)
         for report in reports[0 : len(potentials)]
     ]
-    return found, made, condition[0]
+    return found, described, condition[0]
 
 
 def _exact_report(report: Any) -> ExactReport:
@@ -269,7 +269,7 @@ def weights_exact(
     found = np.empty(len(array))
     report = ffi.new("aur_exact_report *")
     with CoreCall(progress) as call:
-        options, _keep = _exact_options(
+        options, _alive = _exact_options(
             call, array, domain, degree, lobe, cap, near, negative, threads, tolerance, symmetry
         )
         core.call(
@@ -295,7 +295,7 @@ def weights_nested(
     found = np.empty((len(counts), len(array)))
     reports = ffi.new("aur_exact_report[]", max(1, len(counts)))
     with CoreCall() as call:
-        options, _keep = _exact_options(
+        options, _alive = _exact_options(
             call, array, domain, degree, lobe, cap, near, negative, threads, tolerance, symmetry
         )
         core.call(

@@ -73,8 +73,8 @@ class Interval(NamedTuple):
 class Table:
     """A further table of a run: NAME-<name>.csv."""
 
-    def __init__(self, made: Any):
-        self._made = made
+    def __init__(self, pointer: Any):
+        self._pointer = pointer
 
     def row(self, *cells: Cell) -> None:
         """Texts, and numbers after them."""
@@ -82,15 +82,15 @@ class Table:
         split = next((i for i, cell in enumerate(cells) if not isinstance(cell, str)), len(cells))
         numbers = [math.nan if cell is None else float(cell) for cell in cells[split:]]
         words = ffi.new("const char *[]", [texts(cell) for cell in cells[:split]] + [ffi.NULL])
-        _lab().lib.lab_table_row(self._made, words, len(numbers), ffi.new("double[]", numbers))
+        _lab().lib.lab_table_row(self._pointer, words, len(numbers), ffi.new("double[]", numbers))
 
 
 class Run:
     """What an experiment's function is given."""
 
-    def __init__(self, made: Any):
-        self._lib, self._made = _lab(), made
-        self._options = self._lib.lib.lab_run_options(made)
+    def __init__(self, pointer: Any):
+        self._lib, self._pointer = _lab(), pointer
+        self._options = self._lib.lib.lab_run_options(pointer)
 
     @property
     def quick(self) -> bool:
@@ -112,7 +112,7 @@ class Run:
 
     def __getitem__(self, name: str) -> Any:
         """The value of a parameter: an int, a float, or a text."""
-        text = self._lib.text(self._lib.lib.lab_parameter_text(self._made, encode(name)))
+        text = self._lib.text(self._lib.lib.lab_parameter_text(self._pointer, encode(name)))
         if text is None:
             raise KeyError(name)
         for kind in (int, float):
@@ -126,22 +126,22 @@ class Run:
         """A row of the table: texts and numbers in the order of the columns; None and NaN leave a cell empty."""
         for cell in cells:
             if cell is None or isinstance(cell, str):
-                self._lib.lib.lab_text(self._made, ffi.NULL if cell is None else encode(cell))
+                self._lib.lib.lab_text(self._pointer, ffi.NULL if cell is None else encode(cell))
             elif math.isnan(cell):
-                self._lib.lib.lab_text(self._made, ffi.NULL)
+                self._lib.lib.lab_text(self._pointer, ffi.NULL)
             else:
-                self._lib.lib.lab_number(self._made, float(cell))
+                self._lib.lib.lab_number(self._pointer, float(cell))
 
     def note(self, text: str) -> None:
-        self._lib.lib.lab_note(self._made, b"%s", ffi.new("char[]", encode(text)))
+        self._lib.lib.lab_note(self._pointer, b"%s", ffi.new("char[]", encode(text)))
 
     def claim(self, holds: bool, text: str) -> None:
         """A claim in words, in a note that says whether it holds in what was measured."""
-        self._lib.lib.lab_claim(self._made, bool(holds), b"%s", ffi.new("char[]", encode(text)))
+        self._lib.lib.lab_claim(self._pointer, bool(holds), b"%s", ffi.new("char[]", encode(text)))
 
     def wants(self, name: str) -> bool:
         """Whether the row of that name was asked for by --rows."""
-        return bool(self._lib.lib.lab_wants(self._made, encode(name)))
+        return bool(self._lib.lib.lab_wants(self._pointer, encode(name)))
 
     def keep(self, key: str, count: int, function: Callable[[], ArrayLike]) -> NDArray[np.float64]:
         """The `count` numbers of `function()`, or what a run that was interrupted had found under this key.
@@ -149,22 +149,22 @@ class Run:
         For work of a second and more. `key` is a line without a colon at its end, and used once.
         """
         values = ffi.new("double[]", count)
-        if not self._lib.lib.lab_recall(self._made, encode(key), count, values):
+        if not self._lib.lib.lab_recall(self._pointer, encode(key), count, values):
             found = np.asarray(function(), dtype=np.float64).ravel()
             if found.shape != (count,):
                 raise ValueError(f"{key}: expected {count} numbers, not {found.size}")
             values[0:count] = list(found)
-            self._lib.call(self._lib.lib.lab_keep, self._made, encode(key), count, values)
+            self._lib.call(self._lib.lib.lab_keep, self._pointer, encode(key), count, values)
         return np.array(list(values))
 
     def table(self, name: str, columns: Union[str, Sequence[str]]) -> Table:
         texts = Texts()
         words = ffi.new("const char *[]", [texts(column) for column in _columns(columns)] + [ffi.NULL])
-        _kept.append(texts(name))
-        made = self._lib.lib.lab_table(self._made, _kept[-1], words)
-        if made == ffi.NULL:
+        _alive.append(texts(name))
+        pointer = self._lib.lib.lab_table(self._pointer, _alive[-1], words)
+        if pointer == ffi.NULL:
             raise MemoryError("too many tables")
-        return Table(made)
+        return Table(pointer)
 
     def picture(
         self, name: str, picture: ArrayLike, *, view: Optional[str] = None, reference: bool = False, exposure: float = 0.0
@@ -172,9 +172,9 @@ class Run:
         """An image of the report (height, width, channels). Those of one view are compared with its reference."""
         texts = Texts()
         image, _array = _wrap(picture)
-        place = ffi.new("lab_image_position *", {"view": texts(view), "name": texts(name), "reference": reference})
-        place.exposure = exposure
-        self._lib.call(self._lib.lib.lab_picture, self._made, place, image)
+        position = ffi.new("lab_image_position *", {"view": texts(view), "name": texts(name), "reference": reference})
+        position.exposure = exposure
+        self._lib.call(self._lib.lib.lab_picture, self._pointer, position, image)
 
     @contextlib.contextmanager
     def forgive(self, set: str) -> Iterator[None]:
@@ -182,10 +182,10 @@ class Run:
         try:
             yield
         except Error as error:
-            told = ffi.new("aur_error *")
+            failure = ffi.new("aur_error *")
             text = str(error).encode()[:1000]
-            ffi.memmove(told.message, text + b"\0", len(text) + 1)
-            if self._lib.lib.lab_forgive(self._made, encode(set), -10, told) != 0:
+            ffi.memmove(failure.message, text + b"\0", len(text) + 1)
+            if self._lib.lib.lab_forgive(self._pointer, encode(set), -10, failure) != 0:
                 raise
 
 
@@ -193,7 +193,7 @@ def _columns(columns: Union[str, Sequence[str]]) -> list[str]:
     return columns.split() if isinstance(columns, str) else list(columns)
 
 
-_kept: list[Any] = []  # experiments stay known to the lab, by their names
+_alive: list[Any] = []  # experiments stay known to the lab, by their names
 
 
 class Experiment:
@@ -201,15 +201,15 @@ class Experiment:
 
     def __init__(self, function: Callable[[Run], None], name: str, **declared: Any):
         self.function, self.name, self._declared = function, name, declared
-        self._made: Any = None
+        self._pointer: Any = None
         self.raised: Optional[BaseException] = None
 
     def __call__(self, **options: Any) -> "Result":
         return run(self, **options)
 
-    def _call(self, made: Any, error: Any) -> int:
+    def _call(self, pointer: Any, error: Any) -> int:
         try:
-            self.function(Run(made))
+            self.function(Run(pointer))
             return 0
         except BaseException as reason:
             self.raised = reason
@@ -217,29 +217,29 @@ class Experiment:
 
     def add(self) -> Any:
         """Makes the experiment known to the lab, for `run` by its name and `report`."""
-        if self._made is not None:
-            return self._made
+        if self._pointer is not None:
+            return self._pointer
         library, texts, d = _lab(), Texts(), self._declared
         plots = ffi.new("report_plot[]", len(d["plots"]) + 1)
-        for made, plot in zip(plots, d["plots"]):
+        for plot_row, plot in zip(plots, d["plots"]):
             for field, value in plot._asdict().items():
-                setattr(made, field, value if isinstance(value, bool) else texts(value))
-            made.title = texts(plot.title or plot.name)
+                setattr(plot_row, field, value if isinstance(value, bool) else texts(value))
+            plot_row.title = texts(plot.title or plot.name)
         parameters = ffi.new("lab_parameter[]", len(d["parameters"]) + 1)
-        for made, (name, value) in zip(parameters, d["parameters"].items()):
-            made.name, made.default_text, made.help = texts(name), texts(str(value)), texts("")
+        for parameter_row, (name, value) in zip(parameters, d["parameters"].items()):
+            parameter_row.name, parameter_row.default_text, parameter_row.help = texts(name), texts(str(value)), texts("")
         columns = ffi.new("const char *[]", [texts(column) for column in d["columns"]] + [ffi.NULL])
         call = ffi.callback("aur_result(lab_run *, aur_error *)", self._call, error=CANCELLED)
-        made = ffi.new("lab_experiment *", {"columns": columns, "plots": plots, "parameters": parameters, "run": call})
-        made.name = texts(self.name)
+        pointer = ffi.new("lab_experiment *", {"columns": columns, "plots": plots, "parameters": parameters, "run": call})
+        pointer.name = texts(self.name)
         for field in ("reproduces", "summary", "rows", "measured", "low", "high", "published", "takes_no_set"):
-            setattr(made, field, texts(d[field]))
-        made.factor, made.seconds, made.quick_seconds = d["factor"], d["seconds"], d["quick_seconds"]
-        one = ffi.new("const lab_experiment *[]", [made])
+            setattr(pointer, field, texts(d[field]))
+        pointer.factor, pointer.seconds, pointer.quick_seconds = d["factor"], d["seconds"], d["quick_seconds"]
+        one = ffi.new("const lab_experiment *[]", [pointer])
         _add(library, texts, experiment_count=1, experiments=one)
-        _kept.append((self, texts, plots, parameters, columns, call, made, one))
-        self._made = made
-        return made
+        _alive.append((self, texts, plots, parameters, columns, call, pointer, one))
+        self._pointer = pointer
+        return pointer
 
 
 def _add(library: Bridge, texts: Texts, **fields: Any) -> None:
@@ -313,10 +313,10 @@ def integrand(
     call = ffi.callback(
         "aur_result(void *, size_t, size_t, const double *, double *, aur_error *)", evaluate, error=CANCELLED
     )
-    made = ffi.new("lab_named_integrand *", {"dimension": dimension, "evaluate": call, "mean": mean})
-    made.name, made.domain = texts(name), library.value("domain", domain)
-    _add(library, texts, integrand_count=1, integrands=made)
-    _kept.append((texts, call, made))
+    pointer = ffi.new("lab_named_integrand *", {"dimension": dimension, "evaluate": call, "mean": mean})
+    pointer.name, pointer.domain = texts(name), library.value("domain", domain)
+    _add(library, texts, integrand_count=1, integrands=pointer)
+    _alive.append((texts, call, pointer))
 
 
 def run(
@@ -330,8 +330,8 @@ def run(
     experiment are further keywords.
     """
     library, texts, result = _lab(), Texts(), ffi.new("lab_result *")
-    made = experiment.add() if isinstance(experiment, Experiment) else library.lib.lab_find_experiment(encode(experiment))
-    if made == ffi.NULL:
+    pointer = experiment.add() if isinstance(experiment, Experiment) else library.lib.lab_find_experiment(encode(experiment))
+    if pointer == ffi.NULL:
         raise UnknownNameError(f"unknown experiment '{experiment}'")
     os.makedirs(folder, exist_ok=True)
     options = ffi.new("lab_options *", {"quick": quick, "threads": threads})
@@ -344,7 +344,7 @@ def run(
     with _Call(progress) as call:
         call.attach(options)
         try:
-            library.call(library.lib.lab_run_experiment, made, options, result)
+            library.call(library.lib.lab_run_experiment, pointer, options, result)
         except Error:
             if isinstance(experiment, Experiment) and experiment.raised is not None:
                 raise experiment.raised from None
@@ -356,7 +356,7 @@ def run(
                 int(result.claims_held), (library.text(result.files) or "").splitlines(), float(result.seconds),
             )  # fmt: skip
             library.lib.lab_result_release(result)
-    name = library.text(made.name) or ""
+    name = library.text(pointer.name) or ""
     lines = pathlib.Path(folder, name, f"{name}.csv").read_text().splitlines()
     read = list(csv.reader(line for line in lines if not line.startswith("#")))
     return found._replace(table={title: [_cell(row[i]) for row in read[1:]] for i, title in enumerate(read[0])})
@@ -398,12 +398,12 @@ def main(*experiments: Experiment, argv: Optional[Sequence[str]] = None) -> None
     parser.add_argument("-t", "--threads", type=int, default=0, metavar="N")
     parser.add_argument("--report", metavar="DIR", help="make a page of the results")
     given = parser.parse_args(argv)
-    known = {e.name: e for e in experiments}
-    for name in given.name or known:
-        if name not in known:
+    named = {e.name: e for e in experiments}
+    for name in given.name or named:
+        if name not in named:
             parser.error(f"unknown experiment '{name}'")
         found = run(
-            known[name], folder=given.output, quick=given.quick, set=given.set, rows=given.rows, threads=given.threads,
+            named[name], folder=given.output, quick=given.quick, set=given.set, rows=given.rows, threads=given.threads,
             **dict(definition.split("=", 1) for definition in given.define),
         )  # fmt: skip
         print(f"{name}:", *found.notes, "written:", *found.files, sep="\n  ")

@@ -72,7 +72,7 @@ class Engine(_qmc.QMCEngine):
         drawn = scrambled is not None and (seed is None or isinstance(seed, np.random.Generator))
         number = seed_number(self.rng) if drawn else 0 if scrambled is None else seed_number(seed)
         name = row.name + ":" * bool(keys) + ",".join(f"{key.replace('_', '-')}={value}" for key, value in keys.items())
-        self._made_of = (name, n, {"scramble": scrambled or "none", "seed": number})
+        self._set_arguments = (name, n, {"scramble": scrambled or "none", "seed": number})
         self._set = self._make()
 
     def _scramble(self, keys: dict[str, Any]) -> Optional[str]:
@@ -84,7 +84,7 @@ class Engine(_qmc.QMCEngine):
         return self.row.maximum_size or 2**48
 
     def _make(self) -> Any:
-        name, n, scrambled = self._made_of
+        name, n, scrambled = self._set_arguments
         most = self._most()
         if self.row.native:
             return Directions(name, n or most, domain="sphere", **scrambled)
@@ -185,10 +185,10 @@ class _Sobol(Engine):
         rows, shift = self._linear
         digits = np.uint64(63) - np.arange(rows.shape[1], dtype=np.uint64)
         columns = np.bitwise_or.reduce(rows.astype(np.uint64) << digits[:, np.newaxis], axis=1)  # (d, bits)
-        made = np.zeros_like(numbers)
+        product = np.zeros_like(numbers)
         for digit, column in zip(digits, columns.T):
-            made ^= np.where(numbers >> digit & np.uint64(1), column, np.uint64(0))
-        return made, shift
+            product ^= np.where(numbers >> digit & np.uint64(1), column, np.uint64(0))
+        return product, shift
 
     def _random(self, n: int = 1, *, workers: int = 1) -> Array:
         total = self.num_generated + n
@@ -225,15 +225,15 @@ class _Digits(Engine):
         """`permutations`: of each coordinate (places, base). A table adds up what several digits give."""
         self._tables = []
         for base, permutation in zip(bases, permutations):
-            places = max(1, int(51 / math.log2(base) + 1e-9))  # so that a coordinate says its digits in spite of rounding
+            digit_count = max(1, int(51 / math.log2(base) + 1e-9))  # so that a coordinate says its digits in spite of rounding
             width = max(1, int(math.log(1024, base)))
             parts = permutation * float(base) ** -np.arange(1.0, len(permutation) + 1.0)[:, np.newaxis]
             digits = np.arange(base**width)
-            tables = np.zeros((-(-places // width), base**width))
-            for place in range(places):  # from the last one on
-                tables[place // width] += parts[places - 1 - place][digits // base ** (place % width) % base]
-            tables[-1] += parts[places:, 0].sum()  # of the zeros after them
-            self._tables.append((float(base) ** places, tables))
+            tables = np.zeros((-(-digit_count // width), base**width))
+            for digit in range(digit_count):  # from the last one on
+                tables[digit // width] += parts[digit_count - 1 - digit][digits // base ** (digit % width) % base]
+            tables[-1] += parts[digit_count:, 0].sum()  # of the zeros after them
+            self._tables.append((float(base) ** digit_count, tables))
 
     def _points(self, first: int, n: int) -> Array:
         found = super()._points(first, n)
@@ -270,8 +270,8 @@ class _Faure(_Digits):
         super().__init__(d, base=self._base, **arguments)
 
     def _scramble(self, keys: dict[str, Any]) -> str:
-        places = math.ceil(54 / math.log2(self._base)) - 1
-        shifts = self.rng.integers(self._base, size=(self.d, places, 1))
+        digit_count = math.ceil(54 / math.log2(self._base)) - 1
+        shifts = self.rng.integers(self._base, size=(self.d, digit_count, 1))
         self._permute([self._base] * self.d, [*((np.arange(self._base) + shifts) % self._base)])
         keys["scramble"] = "lower-triangular"
         return "none"
