@@ -116,13 +116,14 @@ def make_materials(given):
 CASES = {"triangles": make_triangles, "instances": make_instances, "textures": make_textures, "lights": make_lights,
          "materials": make_materials}
 
-MITSUBA = """import sys, mitsuba as mi
+# The image is not written as EXR, because writing never ends in a pool of one thread.
+MITSUBA = """import sys, mitsuba as mi, numpy as np
 mi.set_variant(sys.argv[1])
 if "llvm" in sys.argv[1]:
     import drjit as dr
     dr.set_thread_count(1)
 scene = mi.load_file(sys.argv[2], parallel=False)
-mi.util.write_bitmap(sys.argv[3], mi.render(scene, spp=1), write_async=False)
+np.save(sys.argv[3], np.array(mi.render(scene, spp=1)))
 """
 
 
