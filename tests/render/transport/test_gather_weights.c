@@ -1,4 +1,4 @@
-/* Weights of one pattern: optimal ones are the library's, and the part of a lobe above the horizon. */
+/* The part of a lobe above the horizon, and weights scaled by it. */
 #include <aureole/quadrature.h>
 
 #include "check.h"
@@ -21,52 +21,6 @@ static aur_gather_rule rule_of(const char *set, aur_scramble scramble, double ex
     aur_gather_rule rule;
     assert_int_equal(aur_gather_rule_create(&options, exponent, &rule, NULL), AUR_OK);
     return rule;
-}
-
-/* Every prepared scrambling has the optimal weights of its directions, and constants are exact. */
-static void optimal_weights(void **state) {
-    (void)state;
-    for (int net = 0; net < 2; ++net) {
-        for (int optimal = 0; optimal < 2; ++optimal) {
-            const double m = 20.0, mass = 2.0 * PI / (m + 1.0);
-            aur_gather_rule rule =
-                net == 1 ? rule_of("sobol", AUR_SCRAMBLE_DIGIT, m, optimal == 1, 3)
-                         : rule_of("spherical-fibonacci", AUR_SCRAMBLE_ROTATE, m, optimal == 1, 3);
-            assert_int_equal(aur_gather_rule_optimise(&rule, 1.5, 1e-6, NULL), AUR_OK);
-            aur_potential *potential;
-            assert_int_equal(aur_potential_create(&(aur_density){.size = sizeof(aur_density), .exponent = m},
-                                                  1.5, &potential, NULL),
-                             AUR_OK);
-            const aur_potential *const potentials[] = {potential};
-            for (uint64_t k = 0; k < 3; ++k) {
-                const aur_gather_rotation rotation = aur_gather_rule_rotation(&rule, k);
-                double xyz[3 * COUNT], weights[COUNT], expected[COUNT], sum = 0.0;
-                for (size_t i = 0; i < COUNT; ++i) {
-                    aur_vector v;
-                    weights[i] = (double)aur_gather_rule_direction(&rule, &rotation, i, &v) / COUNT;
-                    const double length = sqrt((double)v.x * (double)v.x + (double)v.y * (double)v.y +
-                                               (double)v.z * (double)v.z);
-                    xyz[3 * i] = (double)v.x / length;
-                    xyz[3 * i + 1] = (double)v.y / length;
-                    xyz[3 * i + 2] = (double)v.z / length;
-                    sum += weights[i];
-                }
-                assert_relative(sum, mass, 1e-6);
-                assert_int_equal(
-                    aur_weights_solve(COUNT, xyz, 1, potentials, NULL, COUNT, expected, NULL, NULL, NULL),
-                    AUR_OK);
-                for (size_t i = 0; i < COUNT; ++i)
-                    assert_near(weights[i], mass * expected[i], 1e-4 * mass / COUNT);
-            }
-            aur_potential_destroy(potential);
-            aur_gather_rule_release(&rule);
-        }
-    }
-    /* Directions generated at the shading point have none. */
-    aur_gather_rule free_rule = rule_of("sobol", AUR_SCRAMBLE_DIGIT, 20.0, false, 0);
-    aur_error error;
-    assert_int_equal(aur_gather_rule_optimise(&free_rule, 1.5, 1e-6, &error), AUR_ERROR_UNSUPPORTED);
-    aur_gather_rule_release(&free_rule);
 }
 
 static void visible_part(void **state) {
@@ -133,7 +87,6 @@ static void scaled_weights(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(optimal_weights), cmocka_unit_test(visible_part),
-                                       cmocka_unit_test(scaled_weights)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(visible_part), cmocka_unit_test(scaled_weights)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
