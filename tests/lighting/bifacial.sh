@@ -69,7 +69,7 @@ refused "write csv or json, not npy" $args --bifacial --to npy
 refused "the scene has no \$turn" $args -D angle=0 --tracker 0,0,60,.4 --rotation turn
 refused "a limit above 0 and up to 90" $args -D angle=0 --tracker 0,0,100,.4
 refused "a tilt from 0 to 90" $args -D angle=0 --tracker 95,0,60,.4
-refused "--rotation needs the axis" $args --tracker normals.csv --rotation angle
+refused "not 'normals.csv'" $args --tracker normals.csv --rotation angle
 head -20 normals.csv >short.csv
 refused "short.csv: 20 hours, and the weather has 72" $args -D angle=0 --tracker short.csv
 sed 's/^0 0 0/x/' normals.csv >bad.csv

@@ -115,13 +115,15 @@ echo '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world">
 <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape></scene>' >roof.xml
 bash "$weather" 48 11 1 >whole.epw
 for x in $(seq 0 .1 2 | tr , .) $(seq 2 .02 3 | tr , .); do echo "$x 0 0 0 0 1"; done >row.pts
-"$aureole" irradiance roof.xml --sensors row.pts --weather whole.epw --up 0,0,1 -n 64 --threshold 9500 --schedule 10-14 -o row.csv 2>said || fail "a row"
+"$aureole" irradiance roof.xml --sensors row.pts --weather whole.epw --up 0,0,1 -n 64 --threshold 9500 --schedule 10-14 --metrics metrics.csv -o row.csv 2>said || fail "a row"
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
   { ++n; value = $column["autonomy"]; half = 2.13145 * $column["autonomy_error"]; enough += value >= 50; least += value - half >= 50
     most += value + half >= 50; sunny += $column["sun_hours"] > 250 }
   END { printf "aureole: 1460 occupied hours; %.4g %% of the sensors reach the threshold in half of them or more (%.4g to %.4g %% by their intervals), %.4g %% have more than 250 hours of direct sun\n",
           100 * enough / n, 100 * least / n, 100 * most / n, 100 * sunny / n
+        printf "annual sunlight exposure,%.17g,", 100 * sunny / n >"exposure"
         exit !(least < enough && enough < most && sunny > 0 && sunny < n) }' row.csv >expected || fail "all sensors are alike: $(cat expected)"
+grep -qFf exposure metrics.csv || fail "$(grep annual metrics.csv), not $(cat exposure)"
 grep -qxFf expected said || fail "the summary: $(cat said), not $(cat expected)"
 
 # The errors of a series are standard errors: values of 8 seeds spread as they say. The ratio of both variances is F with 7 and 8 * 15

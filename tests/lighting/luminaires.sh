@@ -61,8 +61,8 @@ described lamp.ies IES_LM-63 quadrants $(awk 'BEGIN { pi = atan2(0, -1); printf 
 head -20 panel.ldt >half.ldt
 refused "half.ldt:20:" info half.ldt
 
-refused "must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies
-refused "must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
+refused "--lamp: must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies
+refused "--lamp: must be a file and its position" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
 refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
 refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts

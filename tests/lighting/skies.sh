@@ -29,6 +29,11 @@ near uniform.csv $columns 5000 2500 0
 # Above the tropic at noon of midsummer the sun is in the zenith: direct and diffuse add up.
 run open.rad --sensors points.pts --sky perez:800,100 --date 2026-06-21T12:02 --location 23.43,0,0 -o perez.csv
 near perez.csv 4 7 900 $(sed -n 3p perez.csv | cut -d, -f4) 180
+# Its W/m2 are of all solar radiation, which lumens per visible watt do not convert.
+noon='--sensors up.pts --date 2026-06-21T12:02 --location 23.43,0,0 -n 64 -o lux.csv'
+"$aureole" irradiance open.rad --sky perez:800,100 $noon --illuminance radiance 2>&1 | grep -q "lux of --sky perez" || fail "no warning of lux"
+"$aureole" irradiance open.rad --sky perez:800,100 $noon 2>&1 | grep "lux" && fail "a warning of lux that are not reported"
+"$aureole" irradiance open.rad --sky cie-clear $noon --illuminance radiance 2>&1 | grep "lux" && fail "a warning of the lux of --sky-lux"
 for sky in cie-clear cie:1 cie:12 cie:15; do
   run open.rad --sensors up.pts --sky $sky --date 2026-03-21T10:00 --location 48.1,11.6,1 --illuminance radiance -o $sky.csv
   near $sky.csv $columns 10000

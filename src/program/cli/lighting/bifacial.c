@@ -32,7 +32,8 @@ const cli_option cli_bifacial_options[] = {
         "the variable $NAME of the scene that turns its modules by the rotation of --tracker, in XML or "
         "in !xform of Radiance's files")},
     {CLI_TEXT(cli_bifacial, pivot, "pivot", "X,Y,Z", "the mean of the sensors",
-              "a point of the axis about which the sensors turn from their normals to those of --tracker"),
+              "a point of the axis about which all sensors turn from their normals to those of --tracker: "
+              "give the sensors of one row of modules"),
      .parse = parse_pivot, .key.computed = true},
     {.key = {0}}};
 
@@ -114,7 +115,9 @@ static aur_result find_normals(const work *w, const aur_scene *scene) {
         return AUR_OK;
     const size_t count = cli_split_numbers(w->given->tracker, 5, numbers);
     if (count < 4 && w->given->rotation != NULL)
-        return aur_fail(w->error, AUR_ERROR_ARGUMENT, "--rotation needs the axis of a tracker, not a table");
+        return aur_fail(w->error, AUR_ERROR_ARGUMENT,
+                        "--rotation needs --tracker TILT,AZIMUTH,LIMIT,GCR[,STEP] in numbers, not '%s'",
+                        w->given->tracker);
     if (count < 4)
         return read_table(w);
     aur_tracker_options tracker = {.size = sizeof tracker};

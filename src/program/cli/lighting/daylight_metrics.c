@@ -31,19 +31,20 @@ static void put(report_table *table, const char *name, share found, double targe
     report_text(table, found.least >= target ? "yes" : found.most < target ? "no" : "undecided");
 }
 
-/* The fraction of sensors at or above `least` in a measure, or only above it with `beyond`. */
-static share count(size_t sensors, const aur_daylight *results, aur_daylight_measure measure, double least,
-                   bool beyond) {
-    share found = {0.0, 0.0, 0.0};
-    const double one = 100.0 / (double)sensors;
+/* The percentage of sensors with more than 250 hours of direct sun (LM-83). Sensors are counted before the
+ * division, which a sum of shares would round. */
+static share exposure(size_t sensors, const aur_daylight *results) {
+    size_t counts[3] = {0};
     for (size_t i = 0; i < sensors; ++i) {
-        const double value = results[i].value[measure], half = WIDTH * results[i].error[measure];
+        const double value = results[i].value[AUR_DAYLIGHT_SUN_HOURS];
+        const double half = WIDTH * results[i].error[AUR_DAYLIGHT_SUN_HOURS];
         const double values[3] = {value, value - half, value + half};
-        double *const sums[3] = {&found.value, &found.least, &found.most};
         for (size_t k = 0; k < 3; ++k)
-            *sums[k] += (beyond ? values[k] > least : values[k] >= least) ? one : 0.0;
+            counts[k] += values[k] > 250.0 ? 1 : 0;
     }
-    return found;
+    const double all = (double)sensors;
+    return (share){100.0 * (double)counts[0] / all, 100.0 * (double)counts[1] / all,
+                   100.0 * (double)counts[2] / all};
 }
 
 /* The mean over sensors. All sensors share their random directions, so the interval assumes fully correlated
@@ -117,7 +118,7 @@ aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_su
                             summary->spatial_autonomy_most};
     report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
     put(table, "spatial daylight autonomy", autonomy, NAN);
-    put(table, "annual sunlight exposure", count(sensors, results, AUR_DAYLIGHT_SUN_HOURS, 250.0, true), NAN);
+    put(table, "annual sunlight exposure", exposure(sensors, results), NAN);
     put(table, "mean daylight autonomy", mean(sensors, results, AUR_DAYLIGHT_AUTONOMY), NAN);
     put(table, "mean continuous autonomy", mean(sensors, results, AUR_DAYLIGHT_CONTINUOUS), NAN);
     put(table, "mean useful daylight", mean(sensors, results, AUR_DAYLIGHT_USEFUL), NAN);

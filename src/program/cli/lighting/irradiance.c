@@ -18,6 +18,7 @@ typedef struct irradiance_command {
     aur_irradiance_options estimate;
     aur_irradiance_columns columns;
     illuminance illuminance;
+    bool illuminates; /* report lux */
     cli_daylight daylight;
     cli_bifacial bifacial;
     cli_contributions contributions;
@@ -305,6 +306,10 @@ static void warn_of_units(const irradiance_command *given, const aur_scene *scen
         extent = fmax(extent, d.upper[i] - d.lower[i]);
     if (warnings.function == NULL)
         return;
+    if (given->illuminates && given->sky.sky.model != NULL && strncmp(given->sky.sky.model, "perez", 5) == 0)
+        warnings.function(warnings.user,
+                          "lux of --sky perez are too large: its W/m2 are of the whole solar spectrum, about "
+                          "110 lm/W; --weather converts them by the state of the sky");
     if (given->sky.lamp_count > 0 && (extent > LARGEST || extent < SMALLEST)) {
         aur_format(text, sizeof text,
                    "the scene is %.4g units wide and luminaires are in metres: check the units of the scene",
@@ -368,7 +373,8 @@ static int run(const cli_call *call) {
     given->estimate.progress = cli_progress(given->common.quiet);
     given->estimate.warnings = cli_warnings(given->common.quiet);
     given->columns.size = sizeof given->columns;
-    if (cli_given(call, "illuminance") != NULL || given->sky.daylight_factor)
+    given->illuminates = cli_given(call, "illuminance") != NULL;
+    if (given->illuminates || given->sky.daylight_factor)
         set_illuminance(given);
     if (given->sky.daylight_factor)
         set_daylight_factor(given);

@@ -13,7 +13,7 @@ static aur_result parse_luminaire(const char *text, void *field, aur_error *erro
     const size_t count = at != NULL && at > text ? cli_split_numbers(at + 1, 7, n) : 0;
     if (count != 3 && count != 6 && count != 7)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "must be a file and its position, aim and turn, like lamp.ies@2,1,2.8 or "
+                        "--lamp: must be a file and its position, aim and turn, like lamp.ies@2,1,2.8 or "
                         "lamp.ies@2,1,2.8,0,0,-1,90, not '%s'",
                         text);
     if (given->lamp_count == CLI_LUMINAIRE_LIMIT)
