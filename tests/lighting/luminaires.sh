@@ -29,6 +29,9 @@ near dimmed.csv 125 $(awk "BEGIN { print $side / 2, $half / 2 }") 0
 printf 'TILT=NONE\n1 1000 1 2 1 1 2 1 2 0 1 1 9\n0 180\n0\n1 1\n' >panel.ies
 printf '0 0 0 0 0 1\n' >one.pts
 "$aureole" irradiance -q open.rad --illuminance radiance -n 65536 --sensors one.pts --lamp panel.ies@0,0,1 -o panel.csv
+"$aureole" info panel.ies | grep -q '^lamp_lumens  *1000$' || fail "lumens of lamps"
+sed 's/^1 1000/1 -1/' panel.ies >absolute.ies
+"$aureole" info absolute.ies | grep -q '^lamp_lumens  *absolute' || fail "absolute photometry: $("$aureole" info absolute.ies)"
 near panel.csv $(awk 'BEGIN { n = 400; for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) { x = 2 * (i + .5) / n - 1; y = (j + .5) / n - .5
   s += 1 / (1 + x * x + y * y) ^ 1.5 } print s / n / n }')
 # The lumens of a file arrive: 4 pi on a sphere about it, .1 %, whatever its opening.

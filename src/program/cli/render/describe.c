@@ -3,7 +3,6 @@
 #include <aureole-render/render.h>
 #include <aureole-render/scene.h>
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -92,7 +91,10 @@ static int describe_luminaire(const cli_info_input *input, const cli_info_option
     report_fact_number(facts, "planes", (double)d.planes);
     report_fact_number(facts, "angles", (double)d.angles);
     report_fact_number(facts, "lumens", d.lumens);
-    report_fact_number(facts, "lamp_lumens", d.lamp_lumens > 0.0 ? d.lamp_lumens : NAN);
+    if (d.lamp_lumens > 0.0)
+        report_fact_number(facts, "lamp_lumens", d.lamp_lumens);
+    else
+        report_fact_text(facts, "lamp_lumens", "absolute photometry");
     report_fact_number(facts, "peak_candela", d.peak);
     report_fact_text(facts, "opening",
                      !(d.length + d.width > 0.0) ? "point"
