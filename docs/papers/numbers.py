@@ -268,8 +268,8 @@ for name, case in (("closed room, all light from everywhere | 1 %", "furnace"), 
     line(page, f"| {name} | {value(t, 'held', 100, case=case, target=0)} % | {value(t, 'held', 100, case=case, target=is_target)} % | "
                f"{value(t, 'directions', case=case, target=is_target)} |")
 line(page, f"| pooled | | {value(t, 'held', 100, case='pooled')} % | {value(t, 'held', 100, case='pooled to errors')} % | |")
-t = "picture-coverage"
+t = "image-coverage"
 held = [value(t, "held", 100, case="image's error", target=target) for target in (0, 0.08)]
 nets = value(t, "held", 100, case="discrepancy of scrambled nets")
-line(page, f"radiosities ({value('factors-coverage', 'held', 100, case='pooled')} %), and `aureole lab run picture-coverage` for the errors that "
+line(page, f"radiosities ({value('factors-coverage', 'held', 100, case='pooled')} %), and `aureole lab run image-coverage` for the errors that "
            f"`aureole render --error` prints ({held[0]} %; stopped by an error of 8 %: {held[1]} %) and for `aureole measure --seeds 8` ({nets} %)")

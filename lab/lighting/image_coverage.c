@@ -156,7 +156,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 }
 
 const lab_experiment lab_image_coverage = {
-    .name = "picture-coverage",
+    .name = "image-coverage",
     .reproduces = "docs/lighting-accuracy.md",
     .summary = "how often intervals of images' errors and of measures of randomised sets hold",
     .columns = lab_tally_of_samples,

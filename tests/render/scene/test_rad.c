@@ -367,7 +367,8 @@ static void bad_input(void **state) {
         {"void plastic p\n0\n", 3, "the file ends, but the number of integers must follow"},
         {"void plastic p\n99999999999999999999\n", 2, "expected the number of strings here"},
         {"void plastic p 0 0 5 1.5 1 1 0 0", 1, "'reflectance'"},
-        {"\n\n!gensurf a b 1 1 1", 3, "'gensurf' is not run, only cat, xform, genbox, genprism and genrev"},
+        {"\n\n!gensurf a b 1 1 1", 3,
+         "'gensurf' is not run, only cat, xform, genbox, genprism, genrev, gendaylit"},
         {"!genbox a b 1 1 1", 1, "unknown material 'a': it is not defined above"},
         {"!genbox a b 1 1", 1, "genbox: three sizes expected"},
         {"!genbox a b 1 1 0", 1, "genbox: sizes must be above 0"},
@@ -454,9 +455,8 @@ static void says_all_that_is_left_out(void **state) {
          "q sphere s 0 0 4 0 0 0 1\nq sphere s 0 0 4 0 0 0 1\n",
          "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
          "not 'b'\n"
-         "room.rad:8: the command 'gensurf' is not run, only cat, xform, genbox, genprism and genrev are: "
-         "write "
-         "what it makes into a file and include that\n"
+         "room.rad:8: the command 'gensurf' is not run, only cat, xform, genbox, genprism, genrev, "
+         "gendaylit and gensky are: write what it makes into a file and include that\n"
          "room.rad:9: 'blob' is not read; did you mean 'glow'?\n",
          AUR_ERROR_UNSUPPORTED, "'plastic2' is not read; did you mean 'plastic'?"},
         {"void mixfunc d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(

@@ -4,4 +4,4 @@ awk -F, '!/^#/ && NR > 1 { ++rows; if (!($4 >= .87 && $3 >= 1000) || ($1 == "poo
   END { exit bad || rows != 9 }' "$results/factors-coverage/factors-coverage.csv" || fail "intervals of view factors"
 # 40 renders that an error stops, and 40 of two rounds: fewer than 34 hold once in 200 times.
 awk -F, '!/^#/ && NR > 1 { ++rows; if (!($4 >= .85)) bad = 1 } END { exit bad || rows != 6 }' \
-  "$results/picture-coverage/picture-coverage.csv" || fail "intervals of images"
+  "$results/image-coverage/image-coverage.csv" || fail "intervals of images"
