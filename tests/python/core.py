@@ -9,7 +9,9 @@ import re
 import subprocess
 import sys
 import threading
+import time
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -518,11 +520,36 @@ class Figures(unittest.TestCase):
             found = aureole.integrate(lambda u: sky(u) + u[:, 2], domain="hemisphere", max_points=2**19, seed=2)
         self.assertGreater(found.evaluations, 3e5)
         self.assertAlmostEqual(np.cos(np.deg2rad(found.resolution_degrees)), 1 - found.resolution)
-        with self.assertWarnsRegex(aureole.IntegrationWarning, r"a cap with a radius of 1.1 degrees\) may not have been sampled"):
+        with self.assertWarnsRegex(aureole.IntegrationWarning, r"a cap with a radius of 1.1 degrees\) .* allow 524288 evaluations"):
             found = aureole.integrate(lambda u: u[:, 2] ** 2, domain="hemisphere", max_points=20000)
         self.assertEqual((found.converged, found.doubts), (False, ("unresolved",)))
         found = aureole.integrate(lambda x: x[:, 0] ** -0.9, 1e-6, domain="cube", dimension=1, peaks=[(0, 0, 0.9)])
         self.assertAlmostEqual(found.value, 10)
+
+    def test_integral_of_zero(self):
+        """A relative tolerance cannot be reached, and the warning names the absolute one."""
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "the integral may be 0: set an absolute tolerance"):
+            aureole.integrate(lambda u: u[:, 2], max_points=2**14, resolution=1)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "after 8192 evaluations$"):
+            aureole.integrate(lambda u: u[:, 2] > 0, 1e-9, max_points=2**13, resolution=1)
+
+    def test_slow_function_of_integrals(self):
+        """A function that makes the default resolution take minutes gets one warning, where the caller wrote the call."""
+
+        calls = []
+
+        def slow(u):
+            calls.append(len(u))
+            time.sleep(0.02 if len(calls) < 8 else 0)
+            return u[:, 2] ** 2
+
+        with unittest.mock.patch("aureole._integrate._PATIENCE", 0.05):
+            with self.assertWarnsRegex(aureole.AureoleWarning, "524288 evaluations, .* pass resolution=1") as caught:
+                found = aureole.integrate(slow)
+            self.assertEqual((caught.filename, found.converged, len(caught.warnings)), (__file__, True, 1))
+            for quiet in ({"resolution": 1}, {"first": 256}, {"peaks": [((0, 0, 1), 5)]}):  # warnings are errors here
+                calls.clear()
+                aureole.integrate(slow, **quiet)
 
     def test_integrals_of_several_values(self):
         calls = []
@@ -540,6 +567,8 @@ class Figures(unittest.TestCase):
         self.assertEqual(aureole.integrate(lambda u: u[:, 2], 0, absolute=1e-3).value.__class__, float)
         batch = aureole.integrate(lambda x: x[:, :1] ** np.arange(1, 201), domain="square", separate=True, resolution=1)
         self.assertLess((abs(batch.value * np.arange(2, 202) - 1)).max(), 0.03)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "sampled: set `resolution`"):  # their memory is the limit
+            aureole.integrate(lambda x: x[:, :1] ** np.arange(1, 201), domain="square")
 
     def test_integrals_over_every_domain(self):
         truth = {"sphere": 4 * np.pi / 3, "hemisphere": 2 * np.pi / 3, "axes": 2 * np.pi / 3, "rotations": 1 / 4, "square": 1 / 3,

@@ -352,6 +352,27 @@ static aur_result integrate(aur_integration *work, aur_error *error) {
     return AUR_OK;
 }
 
+static size_t power_of_two(uint64_t least) {
+    size_t power = 1;
+    while (power < least)
+        power *= 2;
+    return power;
+}
+
+/* Evaluations of a level that samples the smallest feature, without those of peaks. */
+static unsigned long long needed_evaluations(const aur_integrate_options *o) {
+    return (unsigned long long)power_of_two((uint64_t)ceil(seen_points(o) / (double)o->replicates)) *
+           o->replicates;
+}
+
+/* Whether a relative tolerance cannot be reached, because all values are 0 within their intervals. */
+static bool may_be_zero(const aur_integration *work) {
+    bool zero = work->options.absolute == 0.0;
+    for (size_t v = 0; v < work->values; ++v)
+        zero = zero && fabs(work->found[v].value) <= work->found[v].half_width;
+    return zero;
+}
+
 static void warn(const aur_integration *work) {
     static const char *const words[] = {
         "all values of the function are equal: features smaller than %s may not have been sampled (peaks "
@@ -365,8 +386,8 @@ static void warn(const aur_integration *work) {
         "the largest values fall as slowly as those of infinite variance do: the interval may not hold "
         "(features smaller than %s may not have been sampled; declare a singularity by the exponent of a "
         "peak)",
-        "features smaller than %s may not have been sampled: allow 3 / resolution evaluations, or set "
-        "`resolution` to the share of the smallest feature (1: none is narrow)"};
+        "features smaller than %s may not have been sampled: %sset `resolution` to the share of the smallest "
+        "feature (1: none is narrow)"};
     const aur_integral *const integral = &work->integral;
     const aur_integrate_options *const o = &work->options;
     char size[96];
@@ -374,23 +395,20 @@ static void warn(const aur_integration *work) {
     if (integral->resolution_degrees > 0.0)
         snprintf(size + length, sizeof size - (size_t)length, " (a cap with a radius of %.2g degrees)",
                  integral->resolution_degrees);
+    char allow[64] = ""; /* nothing to allow where the memory for the values is the limit */
+    if (needed_evaluations(o) > o->evaluations)
+        snprintf(allow, sizeof allow, "allow %llu evaluations, or ", needed_evaluations(o));
     for (size_t bit = 0; bit < sizeof words / sizeof words[0]; ++bit)
         if (integral->doubts >> bit & 1U)
-            aur_warn_at(&o->warnings, (aur_location){0}, words[bit], size);
+            aur_warn_at(&o->warnings, (aur_location){0}, words[bit], size, allow);
     if (integral->reason == AUR_INTEGRATE_EVALUATIONS && o->absolute + o->relative > 0.0 && !work->met)
         aur_warn_at(&o->warnings, (aur_location){0},
-                    "the target was not reached: the error is %.3g after %llu evaluations", integral->error,
-                    (unsigned long long)integral->evaluations);
+                    "the target was not reached: the error is %.3g after %llu evaluations%s", integral->error,
+                    (unsigned long long)integral->evaluations,
+                    may_be_zero(work) ? "; the integral may be 0: set an absolute tolerance" : "");
 }
 
 /* --- the call */
-
-static size_t power_of_two(uint64_t least) {
-    size_t power = 1;
-    while (power < least)
-        power *= 2;
-    return power;
-}
 
 /* Points of the rest of the domain on the first level. */
 static size_t first_points(const aur_integration *work) {

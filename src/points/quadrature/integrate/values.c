@@ -20,7 +20,8 @@ aur_result aur_integrand_check(const aur_integrate_options *options, size_t widt
             for (size_t d = 0; d < coordinates && d < 4; ++d)
                 length += (size_t)snprintf(position + length, sizeof position - length, "%s%.17g",
                                            d > 0 ? ", " : "", points[i / width * coordinates + d]);
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "the function is %g %s (%s%s)", values[i],
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "the function is %g %s (%s%s)",
+                            isnan(values[i]) ? NAN : values[i], /* no sign before nan */
                             aur_shape_is_directions(options) ? "in the direction" : "at the point", position,
                             coordinates > 4 ? ", ..." : "");
         }
