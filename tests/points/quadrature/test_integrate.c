@@ -45,7 +45,7 @@ static double radial(const double u[3], double x) {
 
 static double broken(const double u[3], double x) {
     (void)x;
-    return u[2] > 0.9 ? (double)NAN : 1.0;
+    return u[2] > 0.9 ? -(double)NAN : 1.0;
 }
 
 static double zero(const double u[3], double x) {
