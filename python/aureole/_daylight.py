@@ -93,7 +93,7 @@ def daylight(
                "offsets": [ffi.offsetof("aur_daylight", name) for name in ("value", "error")], "itemsize": ffi.sizeof("aur_daylight")},
     )  # fmt: skip
     summary = library.options("daylight_summary")
-    hours = np.zeros((len(where), 2, lib.aur_weather_get_view(known).count))
+    hours = np.zeros((len(where), 2, lib.aur_weather_get_view(parsed).count))
     with _Call(progress) as call:
         options = library.options(
             "daylight_options", set=texts(set), directions=directions, max_depth=max_depth, subdivision=patches,
