@@ -117,7 +117,7 @@ static bool restrict_isa(const char *name) {
         return bench_fail("--isa: %s", error.message);
     if (setenv("AUREOLE_ISA", name, 1) != 0 || unsetenv("AUREOLE_EMBREE_ISA") != 0)
         return bench_fail("out of memory");
-    aur_isa_ask_again();
+    aur_isa_reset();
     return true;
 }
 

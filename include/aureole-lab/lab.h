@@ -155,7 +155,7 @@ AUR_EXPERIMENTAL void lab_row(lab_run *run, const char *const *texts, size_t cou
 AUR_EXPERIMENTAL void lab_table_row(report_table *table, const char *const *texts, size_t count,
                                     const double *numbers);
 /* Whether the row of that name was requested. */
-AUR_EXPERIMENTAL bool lab_wants(const lab_run *run, const char *name);
+AUR_EXPERIMENTAL bool lab_row_requested(const lab_run *run, const char *name);
 AUR_EXPERIMENTAL void lab_note(lab_run *run, const char *format, ...) AUR_PRINTF(2, 3);
 
 /* A verbal claim of the paper, in a note that states whether the measurement confirms it. Confirmed ones are
@@ -174,14 +174,14 @@ AUR_EXPERIMENTAL void lab_time(lab_run *run, const char *what, double seconds);
  *
  *     if (!lab_recall(run, key, 2, values)) {
  *         ... measure values ...
- *         result = lab_keep(run, key, 2, values, error);
+ *         result = lab_save(run, key, 2, values, error);
  *     }
  *
- * `key` describes the numbers in one line, and is used once. Images written before lab_keep are preserved
+ * `key` describes the numbers in one line, and is used once. Images written before lab_save are preserved
  * too. */
 AUR_EXPERIMENTAL bool lab_recall(const lab_run *run, const char *key, size_t count, double *values);
 /* Errors: WRITE, MEMORY, CANCELLED. */
-AUR_EXPERIMENTAL aur_result lab_keep(lab_run *run, const char *key, size_t count, const double *values,
+AUR_EXPERIMENTAL aur_result lab_save(lab_run *run, const char *key, size_t count, const double *values,
                                      aur_error *error);
 
 /* Lets a measurement of the set of --set fail, for example a file with too few points: adds a note, ends the
@@ -236,8 +236,8 @@ typedef struct lab_image_position {
 } lab_image_position;
 
 /* Writes NAME-<view>-<name>.exr, and a tone-mapped .png. */
-AUR_EXPERIMENTAL aur_result lab_picture(lab_run *run, const lab_image_position *position,
-                                        const aur_image *image, aur_error *error);
+AUR_EXPERIMENTAL aur_result lab_image(lab_run *run, const lab_image_position *position,
+                                      const aur_image *image, aur_error *error);
 
 /* --- statistics of repeated measurements, with 95 % intervals */
 

@@ -119,7 +119,7 @@ AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 
 /* Samples per pixel so far, and the final number. */
 AUR_EXPERIMENTAL size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
-AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_render_samples_target(const aur_render *render) AUR_NONNULL(1);
 
 /* Whether the image is bit-identical for any division into steps: true for every integrator but finalgather
  * and radiosity. */

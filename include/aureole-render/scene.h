@@ -49,12 +49,12 @@ typedef struct aur_scene_sky {
 } aur_scene_sky;
 
 /* A photometric luminaire added to a scene: the emitter `photometric`. */
-typedef struct aur_scene_lamp {
+typedef struct aur_scene_luminaire {
     const char *file;   /* IES (LM-63) or EULUMDAT */
     double position[3]; /* centre of its opening */
     double aim[3];      /* direction of gamma 0, of any length; 0 0 0: down */
     double turn;        /* degrees about that direction; 0: C 0 lies along +x where it points down */
-} aur_scene_lamp;
+} aur_scene_luminaire;
 
 /* Transforms the content of one file of a scene: scaled, rotated about the upward axis and translated, in
  * this order. */
@@ -133,8 +133,8 @@ typedef struct aur_scene_options {
      * can be determined; a warning gives their number. If false, surfaces that use them are errors. */
     bool diffuse;
     aur_scene_sky sky;
-    size_t lamp_count;
-    const aur_scene_lamp *lamps;
+    size_t luminaire_count;
+    const aur_scene_luminaire *luminaires;
     aur_scene_stage stage;
     /* Limit of bitmap textures in memory, in bytes, at least 4 MiB; the rest is in an unnamed file in TMPDIR
      * or /var/tmp. 0: all in memory. The result does not depend on it. */

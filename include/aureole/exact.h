@@ -69,10 +69,10 @@ typedef struct aur_exact_report {
     size_t degree;
     double residual; /* the largest error among the orthonormal functions to the degree (harmonics on the
                         sphere), whose mean square is 1 */
-    double least, largest; /* weight times `points` */
-    size_t points;         /* points with weights: without those below a GGX lobe's surface */
-    size_t places;         /* distinct points among them */
-    size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
+    double least, largest;  /* weight times `points` */
+    size_t points;          /* points with weights: without those below a GGX lobe's surface */
+    size_t distinct_points; /* among `points`: coincident points count once */
+    size_t iterations;      /* of conjugate gradients; 0: solved by a factorisation */
 } aur_exact_report;
 
 /* weights[count] for unit vectors points[3 * count], or coordinates points[dimension * count] of square, cube

@@ -115,12 +115,12 @@ static aur_result measure(study *s, const char *set, size_t directions, const ch
         const lab_image_position position = {view, form, .exposure = 1.5},
                                  reference_position = {view, "reference", true, 1.5};
         if (result == AUR_OK && k == 0)
-            result = lab_picture(s->run, &position, image, error);
+            result = lab_image(s->run, &position, image, error);
         if (result == AUR_OK && k == 0 && form == forms[0])
-            result = lab_picture(s->run, &reference_position, s->reference, error);
+            result = lab_image(s->run, &reference_position, s->reference, error);
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(s->run, key, BLURS * s->seeds, values, error);
+    return result != AUR_OK ? result : lab_save(s->run, key, BLURS * s->seeds, values, error);
 }
 
 static aur_result study_pattern(study *s, const char *set, size_t directions, aur_error *error) {

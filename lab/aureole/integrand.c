@@ -104,7 +104,7 @@ static aur_result measure(const study *s, const char *set, size_t count, double 
             return result;
         squares[k] = (mean - s->reference) * (mean - s->reference);
     }
-    return lab_keep(s->run, key, s->seeds, squares, error);
+    return lab_save(s->run, key, s->seeds, squares, error);
 }
 
 static aur_result add_set(study *s, const char *set, aur_error *error) {

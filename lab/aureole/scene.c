@@ -55,7 +55,7 @@ static aur_result find_references(study *s, aur_error *error) {
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k)
         result = render(s, "spherical-fibonacci", 4096, 1000 + k, &s->references[k], error);
     const lab_image_position position = {.view = "view", .name = "reference", .reference = true};
-    return result == AUR_OK ? lab_picture(s->run, &position, s->references[0], error) : result;
+    return result == AUR_OK ? lab_image(s->run, &position, s->references[0], error) : result;
 }
 
 static aur_result measure(study *s, const char *set, size_t count, double *squares, aur_error *error) {
@@ -72,10 +72,10 @@ static aur_result measure(study *s, const char *set, size_t count, double *squar
         snprintf(name, sizeof name, "%.80s, %zu", set, count);
         if (result == AUR_OK && k == 0)
             result =
-                lab_picture(s->run, &(const lab_image_position){.view = "view", .name = name}, image, error);
+                lab_image(s->run, &(const lab_image_position){.view = "view", .name = name}, image, error);
         aur_image_destroy(image);
     }
-    return result == AUR_OK ? lab_keep(s->run, key, s->repeats, squares, error) : result;
+    return result == AUR_OK ? lab_save(s->run, key, s->repeats, squares, error) : result;
 }
 
 static aur_result add_set(study *s, const char *set, aur_error *error) {

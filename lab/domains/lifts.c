@@ -174,7 +174,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < sizeof lifts / sizeof lifts[0]; ++k)
         for (size_t count = lifts[k].base; count <= last && result == AUR_OK; count *= 2)
-            if (lab_wants(run, lifts[k].name))
+            if (lab_row_requested(run, lifts[k].name))
                 result = row(run, &lifts[k], count, wxyz, error);
     free(wxyz);
     return result;

@@ -118,7 +118,7 @@ static aur_result measure(const box_study *study, size_t form, box_deviations *d
             result = measure_variant(study, form, v, d, error);
         memcpy(values, d, sizeof *d);
         if (result == AUR_OK)
-            result = lab_keep(study->run, key, CELLS, values, error);
+            result = lab_save(study->run, key, CELLS, values, error);
     }
     memcpy(d, values, sizeof *d);
     return result;

@@ -158,13 +158,13 @@ static aur_result measure(feature_study *s, const setting *of, double values[MOS
         if (result == AUR_OK && k == 0) {
             const lab_image_position position = {.view = s->feature->name, .name = of->name, .exposure = 1.0};
             const lab_image_position reference_position = {s->feature->name, "reference", true, 1.0};
-            result = lab_picture(s->run, &position, image, error);
+            result = lab_image(s->run, &position, image, error);
             if (result == AUR_OK)
-                result = lab_picture(s->run, &reference_position, s->references[0], error);
+                result = lab_image(s->run, &reference_position, s->references[0], error);
         }
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(s->run, key, MOST_SEEDS + 2, values, error);
+    return result != AUR_OK ? result : lab_save(s->run, key, MOST_SEEDS + 2, values, error);
 }
 
 static aur_result study_feature(feature_study *s, aur_error *error) {

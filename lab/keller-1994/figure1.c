@@ -74,11 +74,11 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
                                   error);
         if (result == AUR_OK) {
             lab_image_position position = {.view = name, .name = "radiosity", .exposure = 0.5};
-            result = lab_picture(run, &position, images[0], error);
+            result = lab_image(run, &position, images[0], error);
             position.name = "path";
             position.reference = true;
             if (result == AUR_OK)
-                result = lab_picture(run, &position, images[1], error);
+                result = lab_image(run, &position, images[1], error);
         }
         if (result == AUR_OK)
             result = aur_image_mean(images[1], other, error);
@@ -92,7 +92,7 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
         for (size_t k = 0; k <= SEEDS; ++k)
             aur_image_destroy(images[k]);
         if (result == AUR_OK)
-            result = lab_keep(run, name, VALUES, values, error);
+            result = lab_save(run, name, VALUES, values, error);
         if (result != AUR_OK)
             return result;
     }

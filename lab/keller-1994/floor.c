@@ -112,7 +112,7 @@ static aur_result find_opening(lab_run *run, size_t room, size_t size_count, dou
             return result;
         *(sqrt(squares[size_count - 1][1]) < target ? &low : &high) = found[0];
     }
-    return lab_keep(run, key, 2, found, error);
+    return lab_save(run, key, 2, found, error);
 }
 
 typedef struct tried_cause {
@@ -148,7 +148,7 @@ static aur_result measure(tried_cause *tried, const char *set, double squares[VA
         memcpy(values, squares, CELLS * sizeof *values);
         values[CELLS] = tried->aside;
         if (result == AUR_OK)
-            result = lab_keep(tried->run, key, CELLS + 1, values, error);
+            result = lab_save(tried->run, key, CELLS + 1, values, error);
     }
     memcpy(squares, values, CELLS * sizeof *values);
     tried->aside = values[CELLS];

@@ -95,8 +95,7 @@ static aur_result compare_images(lab_run *run, double off[2], aur_error *error) 
         if (result == AUR_OK)
             result = aur_image_mean(images[k], means[k], error);
         if (result == AUR_OK && k < 2)
-            result =
-                lab_picture(run, &(lab_image_position){"mirror", names[k], k == 1, 0.0}, images[k], error);
+            result = lab_image(run, &(lab_image_position){"mirror", names[k], k == 1, 0.0}, images[k], error);
     }
     const double reference = 0.5 * (means[1][3] + means[2][3]);
     off[0] = 100.0 * (means[0][3] / reference - 1.0);

@@ -62,7 +62,7 @@ static aur_result measure(lab_run *run, size_t s, const aur_scene *scene, const 
         }
         aur_radiosity_destroy(radiosity);
     }
-    return result != AUR_OK ? result : lab_keep(run, key, count, found->paths[0], error);
+    return result != AUR_OK ? result : lab_save(run, key, count, found->paths[0], error);
 }
 
 static void add_rows(lab_run *run, size_t scene, size_t set, const char *name, size_t epsilon_count,

@@ -67,7 +67,7 @@ static aur_result measure(lab_run *run, const char *name, const aur_scene *scene
         memcpy(values + CELLS, d->weighted, sizeof d->weighted);
         values[2 * CELLS] = (double)d->lost;
         if (result == AUR_OK)
-            result = lab_keep(run, key, 2 * CELLS + 1, values, error);
+            result = lab_save(run, key, 2 * CELLS + 1, values, error);
     }
     memcpy(d->plain, values, sizeof d->plain);
     memcpy(d->weighted, values + CELLS, sizeof d->weighted);

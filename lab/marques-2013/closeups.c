@@ -44,7 +44,7 @@ static aur_result put(study *s, const char *name, const aur_image *image, aur_er
     char view[80];
     snprintf(view, sizeof view, "%s, %s", s->scene->name, s->window->name);
     const lab_image_position position = {view, name, image == s->references[0], s->of->stops};
-    return lab_picture(s->run, &position, image, error);
+    return lab_image(s->run, &position, image, error);
 }
 
 /* The mean square errors of a pattern; the image of the first randomisation is stored for the sheet. */
@@ -134,7 +134,7 @@ static aur_result draw_sheet(const study *s, aur_error *error) {
     snprintf(name, sizeof name, "sheet, %s, %s", s->scene->name, s->window->name);
     const lab_image_position position = {.name = name};
     if (result == AUR_OK)
-        result = lab_picture(s->run, &position, sheet, error);
+        result = lab_image(s->run, &position, sheet, error);
     aur_image_destroy(sheet);
     return result;
 }
@@ -174,7 +174,7 @@ static aur_result study_window(study *s, aur_error *error) {
         if (result == AUR_OK)
             result = draw_sheet(s, error);
         if (result == AUR_OK)
-            result = lab_keep(s->run, key, count, values, error);
+            result = lab_save(s->run, key, count, values, error);
     }
     for (size_t p = 0; p < s->pattern_count && result == AUR_OK; ++p)
         if (!isnan(values[p * s->seeds]))
@@ -205,9 +205,9 @@ static aur_result draw_whole(const study *s, aur_error *error) {
     const lab_image_position position = {.name = s->scene->name, .exposure = s->of->stops};
     aur_result result = marques_gather(s->run, s->stage.renderer, &what, &image, error);
     if (result == AUR_OK)
-        result = lab_picture(s->run, &position, image, error);
+        result = lab_image(s->run, &position, image, error);
     aur_image_destroy(image);
-    return result != AUR_OK ? result : lab_keep(s->run, key, 1, (const double[]){1.0}, error);
+    return result != AUR_OK ? result : lab_save(s->run, key, 1, (const double[]){1.0}, error);
 }
 
 static aur_result study_scene(study *s, size_t shrink, aur_error *error) {
@@ -246,7 +246,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         s.scene = &marques_scenes[i];
         s.of = &of_scenes[i];
         const char *const file = quick ? s.scene->quick_file : s.scene->file;
-        if (file == NULL || !lab_wants(run, s.scene->name))
+        if (file == NULL || !lab_row_requested(run, s.scene->name))
             continue;
         result = lab_stage_open(run, file, 0, NULL, &s.stage, error);
         if (s.stage.renderer != NULL && result == AUR_OK)

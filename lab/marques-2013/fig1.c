@@ -46,7 +46,7 @@ static aur_result need_references(study *s, aur_error *error) {
     const aur_result result = marques_references(s->run, s->stage.renderer, &s->form, s->reference_directions,
                                                  s->references, error);
     const lab_image_position position = {"plates", "reference", true, 1.0};
-    return result != AUR_OK ? result : lab_picture(s->run, &position, s->references[0], error);
+    return result != AUR_OK ? result : lab_image(s->run, &position, s->references[0], error);
 }
 
 /* Both quantities, one value per randomisation; writes the image of the first. */
@@ -71,10 +71,10 @@ static aur_result measure(study *s, const char *set, size_t directions,
         }
         const lab_image_position position = {"plates", set, .exposure = 1.0};
         if (result == AUR_OK && k == 0 && directions == SHOWN)
-            result = lab_picture(s->run, &position, image, error);
+            result = lab_image(s->run, &position, image, error);
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(s->run, key, QUANTITIES * s->seeds, values, error);
+    return result != AUR_OK ? result : lab_save(s->run, key, QUANTITIES * s->seeds, values, error);
 }
 
 static aur_result compare(study *s, const char *set, bool is_published, size_t directions, const double *base,

@@ -146,7 +146,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (result == AUR_OK)
         judge(&s);
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_image_position){.name = "drawing"}, s.drawn, error);
+        result = lab_image(run, &(lab_image_position){.name = "drawing"}, s.drawn, error);
     aur_image_destroy(s.drawn);
     return result;
 }

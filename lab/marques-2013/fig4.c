@@ -59,7 +59,7 @@ static aur_result measure(study *s, const marques_pattern *pattern, size_t direc
             squares[k] = lab_mean_product(image, s->references[0], s->references[1]);
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(s->run, key, s->seeds, squares, error);
+    return result != AUR_OK ? result : lab_save(s->run, key, s->seeds, squares, error);
 }
 
 static void compare(study *s, const line *other) {

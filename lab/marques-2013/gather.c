@@ -65,7 +65,7 @@ static aur_result need_reference(gather_study *study, const char *component, aur
         return result;
     const lab_image_position position = {
         .view = component, .name = "reference", .reference = true, .exposure = 1.0};
-    return lab_picture(study->run, &position, study->reference, error);
+    return lab_image(study->run, &position, study->reference, error);
 }
 
 /* Mean square errors of one pattern, one value per scramble; writes the image of the first. */
@@ -86,11 +86,11 @@ static aur_result measure(gather_study *study, const char *component, const char
             mse[k] = value[3];
         if (result == AUR_OK && k == 0 && directions == 64) {
             const lab_image_position position = {.view = component, .name = set, .exposure = 1.0};
-            result = lab_picture(study->run, &position, image, error);
+            result = lab_image(study->run, &position, image, error);
         }
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(study->run, key, study->scrambles, mse, error);
+    return result != AUR_OK ? result : lab_save(study->run, key, study->scrambles, mse, error);
 }
 
 /* The row of one pattern; `base` is the first pattern's mean square errors with the same number of
@@ -150,7 +150,7 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
         if (result == AUR_OK)
             result = render(study, "path", study->path_samples, 2, &images[1], error);
         for (size_t i = 0; i < 2 && result == AUR_OK; ++i) {
-            result = lab_picture(study->run, &positions[i], images[i], error);
+            result = lab_image(study->run, &positions[i], images[i], error);
             if (result == AUR_OK)
                 result = aur_image_mean(images[i], mean, error);
             values[GATHERED + i] = mean[3];
@@ -165,7 +165,7 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
             aur_image_destroy(small[i]);
         }
         if (result == AUR_OK)
-            result = lab_keep(study->run, "bias", VALUES, values, error);
+            result = lab_save(study->run, "bias", VALUES, values, error);
         if (result != AUR_OK)
             return result;
     }

@@ -128,7 +128,7 @@ static aur_result measure(table_study *study, const char *set, const char *map, 
     }
     if (result != AUR_OK)
         return result;
-    return lab_keep(study->run, key, 2, (const double[2]){cell->mean, cell->relative_half}, error);
+    return lab_save(study->run, key, 2, (const double[2]){cell->mean, cell->relative_half}, error);
 }
 
 static double root(double value) {
@@ -151,7 +151,7 @@ static bool included(const table_study *study, size_t component, size_t map, siz
     char name[160];
     snprintf(name, sizeof name, "%s/%s/%s/%.80s", study->scene->name, components[component], maps[map],
              candidate_at(study, other));
-    return lab_wants(study->run, name) && !(study->quick && other == 1);
+    return lab_row_requested(study->run, name) && !(study->quick && other == 1);
 }
 
 static bool any_included(const table_study *study, size_t component, size_t count) {

@@ -78,7 +78,7 @@ static aur_result measure(box *of, const char *set, box_way way, double *mse, au
             lab_gather_judge(&of->gather, image, &mse[k], &all);
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(of->run, key, of->scrambles, mse, error);
+    return result != AUR_OK ? result : lab_save(of->run, key, of->scrambles, mse, error);
 }
 
 static double published_ratio(const char *set, box_way way) {

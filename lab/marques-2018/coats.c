@@ -114,7 +114,7 @@ static aur_result study_set(coats_study *s, aur_error *error) {
     if (!lab_recall(s->run, key, CELLS, &s->squares[0][0][0])) {
         aur_result result = measure(s, error);
         if (result == AUR_OK)
-            result = lab_keep(s->run, key, CELLS, &s->squares[0][0][0], error);
+            result = lab_save(s->run, key, CELLS, &s->squares[0][0][0], error);
         if (result != AUR_OK)
             return result;
     }

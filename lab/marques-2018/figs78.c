@@ -96,14 +96,14 @@ static aur_result measure(curve_study *s, curve *c, size_t n, aur_error *error) 
             char view[64], name[120];
             snprintf(view, sizeof view, "%s, N = %zu", s->scene, total);
             snprintf(name, sizeof name, "%.80s %s", c->set, ways[c->way].name);
-            result = lab_picture(s->run, &(lab_image_position){.view = view, .name = name}, image, error);
+            result = lab_image(s->run, &(lab_image_position){.view = view, .name = name}, image, error);
             if (result == AUR_OK)
-                result = lab_picture(s->run, &(lab_image_position){view, "reference", true, 0.0},
-                                     s->gather.reference, error);
+                result = lab_image(s->run, &(lab_image_position){view, "reference", true, 0.0},
+                                   s->gather.reference, error);
         }
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(s->run, key, s->scrambles, c->mse[n], error);
+    return result != AUR_OK ? result : lab_save(s->run, key, s->scrambles, c->mse[n], error);
 }
 
 static void draw(const curve_study *s, const curve *c, size_t n, const char *panel) {

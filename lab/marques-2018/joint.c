@@ -204,7 +204,7 @@ static aur_result study_size(joint_study *of, aur_error *error) {
                     values[2] = judge(of, &rule, true);
                 }
             }
-            const aur_result result = lab_keep(of->run, key, 3, values, error);
+            const aur_result result = lab_save(of->run, key, 3, values, error);
             if (result != AUR_OK)
                 return result;
         }

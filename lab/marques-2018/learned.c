@@ -209,7 +209,7 @@ static aur_result study_set(learned_study *of, bool hard, size_t lights, aur_err
             values[CELLS - 1] += learned / (double)lights;
         }
         if (result == AUR_OK)
-            result = lab_keep(of->run, key, CELLS, values, error);
+            result = lab_save(of->run, key, CELLS, values, error);
         if (result != AUR_OK)
             return result;
     }

@@ -74,7 +74,7 @@ static aur_result study_set(lobes_study *s, size_t lights, aur_error *error) {
     if (!lab_recall(s->run, key, CELLS, &squares[0][0][0])) {
         aur_result result = measure(s, lights, squares, error);
         if (result == AUR_OK)
-            result = lab_keep(s->run, key, CELLS, &squares[0][0][0], error);
+            result = lab_save(s->run, key, CELLS, &squares[0][0][0], error);
         if (result != AUR_OK)
             return result;
     }

@@ -113,9 +113,9 @@ static aur_result measure_one(image_study *study, const char *set, way w, size_t
         snprintf(view, sizeof view, "%s, %.80s", study->subject->name, set);
         const lab_image_position position = {.view = view, .name = ways[w].name, .exposure = 1.0};
         const lab_image_position reference_position = {view, "reference", true, 1.0};
-        result = lab_picture(study->run, &position, image, error);
+        result = lab_image(study->run, &position, image, error);
         if (result == AUR_OK && w == OSWA)
-            result = lab_picture(study->run, &reference_position, study->gather.reference, error);
+            result = lab_image(study->run, &reference_position, study->gather.reference, error);
     }
     aur_image_destroy(image);
     return result;
@@ -143,7 +143,7 @@ static aur_result measure(image_study *study, const char *set, way w, double *ms
         snprintf(what, sizeof what, "%s, an image", key);
         lab_time(study->run, what, seconds);
         if (result == AUR_OK)
-            result = lab_keep(study->run, key, study->scrambles + 1, values, error);
+            result = lab_save(study->run, key, study->scrambles + 1, values, error);
     }
     memcpy(mse, values, study->scrambles * sizeof *mse);
     *image_mse = values[study->scrambles];

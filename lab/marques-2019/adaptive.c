@@ -52,7 +52,7 @@ static aur_result find_threshold(adaptive_study *study, adaptive_way *way, doubl
         *(counts.mean > target ? &low : &high) = log(way->threshold);
     }
     way->threshold = exp(0.5 * (low + high));
-    return lab_keep(study->run, key, 1, &way->threshold, error);
+    return lab_save(study->run, key, 1, &way->threshold, error);
 }
 
 static void add_row(const adaptive_study *study, const adaptive_way *way, const char *what,
@@ -120,7 +120,7 @@ static aur_result study_darkness(adaptive_study *study, aur_error *error) {
         if (result == AUR_OK) {
             adaptive_count(study, &way, image, &counts);
             aur_image_destroy(image);
-            result = lab_keep(study->run, key, 1, &counts.shares[0], error);
+            result = lab_save(study->run, key, 1, &counts.shares[0], error);
         }
         if (result != AUR_OK)
             return result;

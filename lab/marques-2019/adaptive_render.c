@@ -96,7 +96,7 @@ static aur_result measure(adaptive_study *study, const adaptive_way *way, adapti
             aur_image_destroy(colour);
         }
         if (result == AUR_OK)
-            result = lab_keep(study->run, key, 5 * study->seeds, values, error);
+            result = lab_save(study->run, key, 5 * study->seeds, values, error);
         if (result != AUR_OK)
             return result;
     }
@@ -164,7 +164,7 @@ static aur_result draw_map(const adaptive_study *study, const adaptive_way *way,
     }
     char view[64];
     snprintf(view, sizeof view, "sampling map, %s", study->lobe->name);
-    result = lab_picture(study->run, &(lab_image_position){.view = view, .name = way->criterion}, map, error);
+    result = lab_image(study->run, &(lab_image_position){.view = view, .name = way->criterion}, map, error);
     aur_image_destroy(map);
     return result;
 }
@@ -178,7 +178,7 @@ static aur_result draw_one(const adaptive_study *study, const adaptive_way *way,
     const lab_image_position position = {
         .view = study->lobe->name, .name = name, .reference = reference, .exposure = 1.0};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &position, image, error);
+        result = lab_image(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }
@@ -198,7 +198,7 @@ aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, a
         result = draw_one(study, &last, "level 3 everywhere", false, error);
     if (result == AUR_OK && more)
         result = draw_one(study, &fine, "reference", true, error);
-    return result != AUR_OK ? result : lab_keep(study->run, key, 1, (const double[]){1.0}, error);
+    return result != AUR_OK ? result : lab_save(study->run, key, 1, (const double[]){1.0}, error);
 }
 
 void adaptive_release(adaptive_study *study) {

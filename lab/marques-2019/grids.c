@@ -84,10 +84,10 @@ static aur_result show(lab_run *run, const shown *grid, const aur_points_view *p
         result = lab_canvas(SIDE, SIDE, &on.sphere, error);
     if (result == AUR_OK) {
         draw(&on, grid, points);
-        result = lab_picture(run, &(lab_image_position){.view = "sphere", .name = name}, on.sphere, error);
+        result = lab_image(run, &(lab_image_position){.view = "sphere", .name = name}, on.sphere, error);
     }
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_image_position){.view = "plane", .name = name}, on.plane, error);
+        result = lab_image(run, &(lab_image_position){.view = "plane", .name = name}, on.plane, error);
     aur_image_destroy(on.plane);
     aur_image_destroy(on.sphere);
     return result;

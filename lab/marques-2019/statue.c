@@ -73,7 +73,7 @@ static aur_result measure(statue_study *study, const char *set, size_t diffuse, 
             mse[k] = lab_mean_product(image, study->reference_images[0], study->reference_images[1]);
         aur_image_destroy(image);
     }
-    return result != AUR_OK ? result : lab_keep(study->run, key, study->seeds, mse, error);
+    return result != AUR_OK ? result : lab_save(study->run, key, study->seeds, mse, error);
 }
 
 static double add_row(const statue_study *study, const char *figure, const char *set, const char *step,
@@ -101,7 +101,7 @@ static aur_result draw(const statue_study *study, const char *set, size_t diffus
     const lab_image_position position = {
         .view = "fig. 10", .name = reference ? "reference" : set, .reference = reference};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &position, image, error);
+        result = lab_image(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }
@@ -121,14 +121,14 @@ static aur_result study_image(statue_study *study, aur_error *error) {
         if (result == AUR_OK && study->image_width > 0 && !lab_recall(study->run, set, 1, &drawn)) {
             result = draw(study, set, 128, 32, false, error);
             if (result == AUR_OK)
-                result = lab_keep(study->run, set, 1, (const double[]){1.0}, error);
+                result = lab_save(study->run, set, 1, (const double[]){1.0}, error);
         }
         result = lab_forgive(study->run, study->sets[s], result, error);
     }
     if (result == AUR_OK && study->image_width > 0 && !lab_recall(study->run, "reference", 1, &drawn)) {
         result = draw(study, "spherical-fibonacci", 512, 512, true, error);
         if (result == AUR_OK)
-            result = lab_keep(study->run, "reference", 1, (const double[]){1.0}, error);
+            result = lab_save(study->run, "reference", 1, (const double[]){1.0}, error);
     }
     release_reference(study);
     return result;

@@ -93,7 +93,7 @@ static aur_result draw(const occlusion_study *study, const occlusion_form *form,
     aur_result result = render(study, form, study->image_width, study->image_height, 1, &image, error);
     const lab_image_position position = {.view = view, .name = form->set->name};
     if (result == AUR_OK)
-        result = lab_picture(study->run, &position, image, error);
+        result = lab_image(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }
@@ -119,7 +119,7 @@ static aur_result measure(occlusion_study *study, const occlusion_form *form, do
         if (result == AUR_OK)
             result = draw(study, form, error);
         if (result == AUR_OK)
-            result = lab_keep(study->run, key, 2 * study->repeats, values, error);
+            result = lab_save(study->run, key, 2 * study->repeats, values, error);
     }
     for (size_t k = 0; k < study->repeats && result == AUR_OK; ++k) {
         pixels[k] = values[2 * k];
@@ -161,10 +161,10 @@ static aur_result draw_references(const occlusion_study *study, const size_t cou
         char view[64];
         name_view(&(occlusion_form){.samples = counts[i / 2], .each_pixel = i % 2 == 0}, view);
         const lab_image_position position = {.view = view, .name = "reference", .reference = true};
-        result = lab_picture(study->run, &position, rendered, error);
+        result = lab_image(study->run, &position, rendered, error);
     }
     aur_image_destroy(rendered);
-    return result != AUR_OK ? result : lab_keep(study->run, "references", 1, (const double[]){1.0}, error);
+    return result != AUR_OK ? result : lab_save(study->run, "references", 1, (const double[]){1.0}, error);
 }
 
 static aur_result study_all(occlusion_study *study, aur_error *error) {

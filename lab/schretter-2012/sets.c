@@ -56,7 +56,7 @@ static aur_result show(lab_run *run, report_table *table, const char *figure, co
     char view[64];
     snprintf(view, sizeof view, "fig. %s, %s", figure, coordinates);
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_image_position){.view = view, .name = set}, image, error);
+        result = lab_image(run, &(lab_image_position){.view = view, .name = set}, image, error);
     aur_image_destroy(image);
     aur_points_destroy(generated);
     return result;

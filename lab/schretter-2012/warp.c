@@ -111,7 +111,7 @@ static aur_result draw(const warp_study *study, const char *set, size_t count, c
     for (size_t i = 0; i < count && set != NULL; ++i)
         lab_dot(image, warped[2 * i] * SIDE, (1.0 - warped[2 * i + 1]) * SIDE, 2.5, lab_colour(0));
     const lab_image_position position = {.view = study->subject->name, .name = set != NULL ? set : "density"};
-    result = lab_picture(study->run, &position, image, error);
+    result = lab_image(study->run, &position, image, error);
     aur_image_destroy(image);
     return result;
 }

@@ -79,7 +79,7 @@ static aur_result study(lab_run *run, const lab_family *family, const caller_kin
         aur_result result = tally_of(family, caller, runs, &t, error);
         memcpy(figures, &t, sizeof figures);
         if (result == AUR_OK)
-            result = lab_keep(run, key, FIGURES, figures, error);
+            result = lab_save(run, key, FIGURES, figures, error);
         if (result != AUR_OK)
             return result;
     }
@@ -98,7 +98,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         for (size_t f = 0; f < lab_family_count() && result == AUR_OK; ++f) {
             const lab_family *const family = lab_family_at(f);
             const bool again = k > 0 && family->peak != 0.0; /* peaks replace the default resolution */
-            if (!again && lab_wants(run, family->name))
+            if (!again && lab_row_requested(run, family->name))
                 result = study(run, family, &callers[k], error);
         }
     return result;

@@ -14,6 +14,23 @@ Progress = Callable[[str, int, int], Any]
 Seed = Union[None, int, np.integer, np.random.SeedSequence, np.random.BitGenerator, np.random.Generator, np.random.RandomState]
 _Self = TypeVar("_Self", bound="Call")
 _Rebuilt = TypeVar("_Rebuilt", bound="Rebuilt")
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def renamed_keyword(old: str, new: str) -> Callable[[_Function], _Function]:
+    """For functions whose parameter has a new name: the old one is accepted in this version, with a DeprecationWarning."""
+
+    def decorate(function: _Function) -> _Function:
+        @functools.wraps(function)
+        def renamed(*arguments: Any, **keywords: Any) -> Any:
+            if old in keywords and new not in keywords:
+                warnings.warn(f"{function.__name__}: {old}= is {new}= now", DeprecationWarning, stacklevel=2)
+                keywords[new] = keywords.pop(old)
+            return function(*arguments, **keywords)
+
+        return renamed  # type: ignore[return-value]
+
+    return decorate
 
 
 class Error(Exception):

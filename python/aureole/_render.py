@@ -10,7 +10,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, rows, view_of
+from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, renamed_keyword, rows, view_of
 from ._core import core
 from ._library import ffi
 from ._sets import attach
@@ -264,24 +264,25 @@ def read_image(path: Path) -> tuple[ImageArray, list[str]]:
     return _image_array(library.own("image", image))
 
 
-def _wrap(picture: Union[ArrayLike, Path]) -> tuple[Any, Any]:
+def _wrap(image: Union[ArrayLike, Path]) -> tuple[Any, Any]:
     """The library's image about an array, without a copy where it is of float32, and the array; or about a file's."""
-    library, image = _library(), ffi.new("aur_image **")
-    if isinstance(picture, (str, os.PathLike)):
-        library.call(library.lib.aur_image_read, encode(picture), image)
-        return library.own("image", image), None
-    array = np.ascontiguousarray(picture, dtype=np.float32)
+    library, pointer = _library(), ffi.new("aur_image **")
+    if isinstance(image, (str, os.PathLike)):
+        library.call(library.lib.aur_image_read, encode(image), pointer)
+        return library.own("image", pointer), None
+    array = np.ascontiguousarray(image, dtype=np.float32)
     if array.ndim == 2:
         array = array[:, :, np.newaxis]
     if array.ndim != 3:
         raise ArgumentError(f"an image must have the shape (height, width, channels), not {array.shape}")
     height, width, channels = array.shape
-    library.call(library.lib.aur_image_wrap, width, height, channels, library.output(array, "float"), image)
-    return library.own("image", image), array
+    library.call(library.lib.aur_image_wrap, width, height, channels, library.output(array, "float"), pointer)
+    return library.own("image", pointer), array
 
 
+@renamed_keyword("picture", "image")
 def write_image(
-    path: Path, picture: ArrayLike, *, channels: Optional[Sequence[str]] = None, exposure: float = 0.0,
+    path: Path, image: ArrayLike, *, channels: Optional[Sequence[str]] = None, exposure: float = 0.0,
     tone: str = "srgb", half: bool = False,
 ) -> None:  # fmt: skip
     """Writes an image (height, width, channels), by the end of the file's name: .exr, .pfm, .hdr or .png.
@@ -290,32 +291,34 @@ def write_image(
     are for PNG; `half`: 16-bit floats in EXR.
     """
     library = _library()
-    image, _array = _wrap(picture)
+    wrapped, _array = _wrap(image)
     for index, name in enumerate(channels or ()):
-        library.call(library.lib.aur_image_name_channel, image, index, encode(name))
+        library.call(library.lib.aur_image_name_channel, wrapped, index, encode(name))
     options = library.options("image_write_options", exposure=exposure, tone=library.value("tone", tone), half=half)
-    library.call(library.lib.aur_image_write, encode(path), image, options)
+    library.call(library.lib.aur_image_write, encode(path), wrapped, options)
 
 
-def compare(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path], metric: str = "rmse") -> float:
+@renamed_keyword("picture", "image")
+def compare(reference: Union[ArrayLike, Path], image: Union[ArrayLike, Path], metric: str = "rmse") -> float:
     """A figure of the difference of two images of one size, over R, G and B: arrays (height, width, 3) or files.
 
     `metric`: "rmse", "mse", "mae", "relmse", "mrse", "relative-rmse" or "flip" (Andersson et al. 2020).
     """
     library = _library()
-    (first, _a), (second, _b), value = _wrap(reference), _wrap(picture), ffi.new("double[4]")
+    (first, _a), (second, _b), value = _wrap(reference), _wrap(image), ffi.new("double[4]")
     kind = ffi.new("aur_image_metric *")
     library.call(library.lib.aur_image_metric_from_name, encode(metric), kind)
     library.call(library.lib.aur_image_compare, first, second, kind[0], value)
     return value[3]
 
 
-def flip(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path]) -> ImageArray:
+@renamed_keyword("picture", "image")
+def flip(reference: Union[ArrayLike, Path], image: Union[ArrayLike, Path]) -> ImageArray:
     """LDR-FLIP of each pixel (height, width), in [0, 1] (Andersson et al. 2020)."""
     library = _library()
-    (first, _a), (second, _b), image = _wrap(reference), _wrap(picture), ffi.new("aur_image **")
-    library.call(library.lib.aur_image_flip, first, second, image)
-    return _image_array(library.own("image", image))[0][:, :, 0]
+    (first, _a), (second, _b), pointer = _wrap(reference), _wrap(image), ffi.new("aur_image **")
+    library.call(library.lib.aur_image_flip, first, second, pointer)
+    return _image_array(library.own("image", pointer))[0][:, :, 0]
 
 
 class Irradiance(NamedTuple):

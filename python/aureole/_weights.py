@@ -135,8 +135,13 @@ class ExactReport(NamedTuple):
     least: float  #: weight times `points`
     largest: float
     points: int  #: how many were weighed
-    places: int  #: of them at different places
+    distinct_points: int  #: among them: coincident points count once
     iterations: int  #: of conjugate gradients; 0: solved by a factorisation
+
+    @property
+    def places(self) -> int:
+        """`distinct_points` as version 0.1 named it; to be removed in the next version."""
+        return self.distinct_points
 
 
 def weights(

@@ -31,7 +31,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import CANCELLED, Bridge, Error, Progress, UnknownNameError, encode
+from ._bridge import CANCELLED, Bridge, Error, Progress, UnknownNameError, encode, renamed_keyword
 from ._library import ffi
 from ._render import Path, Texts, _Call, _library, _wrap
 
@@ -139,12 +139,12 @@ class Run:
         """A claim in words, in a note that says whether it holds in what was measured."""
         self._lib.lib.lab_claim(self._pointer, bool(holds), b"%s", ffi.new("char[]", encode(text)))
 
-    def wants(self, name: str) -> bool:
-        """Whether the row of that name was asked for by --rows."""
-        return bool(self._lib.lib.lab_wants(self._pointer, encode(name)))
+    def requested(self, name: str) -> bool:
+        """Whether the row of that name is to be computed: --rows selects rows."""
+        return bool(self._lib.lib.lab_row_requested(self._pointer, encode(name)))
 
-    def keep(self, key: str, count: int, function: Callable[[], ArrayLike]) -> NDArray[np.float64]:
-        """The `count` numbers of `function()`, or what a run that was interrupted had found under this key.
+    def cached(self, key: str, count: int, function: Callable[[], ArrayLike]) -> NDArray[np.float64]:
+        """The `count` numbers of `function()`, or those that an interrupted run stored under this key.
 
         For work of a second and more. `key` is a line without a colon at its end, and used once.
         """
@@ -154,7 +154,7 @@ class Run:
             if found.shape != (count,):
                 raise ValueError(f"{key}: expected {count} numbers, not {found.size}")
             values[0:count] = list(found)
-            self._lib.call(self._lib.lib.lab_keep, self._pointer, encode(key), count, values)
+            self._lib.call(self._lib.lib.lab_save, self._pointer, encode(key), count, values)
         return np.array(list(values))
 
     def table(self, name: str, columns: Union[str, Sequence[str]]) -> Table:
@@ -166,15 +166,18 @@ class Run:
             raise MemoryError("too many tables")
         return Table(pointer)
 
-    def picture(
-        self, name: str, picture: ArrayLike, *, view: Optional[str] = None, reference: bool = False, exposure: float = 0.0
+    @renamed_keyword("picture", "image")
+    def image(
+        self, name: str, image: ArrayLike, *, view: Optional[str] = None, reference: bool = False, exposure: float = 0.0
     ) -> None:
         """An image of the report (height, width, channels). Those of one view are compared with its reference."""
         texts = Texts()
-        image, _array = _wrap(picture)
+        wrapped, _array = _wrap(image)
         position = ffi.new("lab_image_position *", {"view": texts(view), "name": texts(name), "reference": reference})
         position.exposure = exposure
-        self._lib.call(self._lib.lib.lab_picture, self._pointer, position, image)
+        self._lib.call(self._lib.lib.lab_image, self._pointer, position, wrapped)
+
+    wants, keep, picture = requested, cached, image  # names of version 0.1, to be removed in the next version
 
     @contextlib.contextmanager
     def forgive(self, set: str) -> Iterator[None]:

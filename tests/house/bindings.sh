@@ -52,7 +52,7 @@ for line in subprocess.run(["./sizes"], check=True, capture_output=True, text=Tr
 fixed = """error progress warnings output strategy z_grid lobe rotation fibonacci_set moments estimate_points estimated exact_report
     weights_report integrate_peak set_description measure_description rank_description key row table json weather_hour weather_note
     daylight irradiance error_figures gather_settings gather_directions gather_common gather_shading_point gather_method radiosity_triangle_result definition
-    scene_lamp scene_placement scene_sky scene_stage point_group"""
+    scene_luminaire scene_placement scene_sky scene_stage point_group"""
 sizeless = {name for name, first in re.findall(r"^typedef struct (aur_\w+) \{\s*([^;]*);", whole, flags=re.M) if first != "size_t size"}
 if sizeless != {"aur_" + name for name in fixed.split()}:
     lost.append(f"structs without a size in front: {sizeless ^ {'aur_' + name for name in fixed.split()}}")

@@ -52,8 +52,8 @@ awk '$1 == "covering" { good = $2 > 15 && $2 < 30 && $4 > 20 && $4 < 30 } END { 
 awk '!($2 > 0.4 && $2 < 0.6 && $2 < $5 && $3 < $6) { exit 1 }' normals.txt || fail "$(cat normals.txt)"
 awk '{ off = $2 - $7; exit !(off < 3e-4 * $7 && off > -3e-4 * $7) }' environment.txt || fail "$(cat environment.txt)"
 # A set from a file has the bits of the arrays that it was written from.
-awk '{ $1 == "own" ? own = $2 $3 $4 : $1 == "file:own.npy" ? filed = $2 $3 $4 : 0 }
-     $4 - 0.25 > 2e-3 || 0.25 - $4 > 2e-3 { bad = 1 } END { exit !(own == filed && !bad && NR == 3) }' own_set.txt || fail "$(cat own_set.txt)"
+awk '{ $1 == "custom" ? custom = $2 $3 $4 : $1 == "file:custom.npy" ? filed = $2 $3 $4 : 0 }
+     $4 - 0.25 > 2e-3 || 0.25 - $4 > 2e-3 { bad = 1 } END { exit !(custom == filed && !bad && NR == 3) }' custom_set.txt || fail "$(cat custom_set.txt)"
 awk '{ off = $NF - 1 } off > 1e-9 || off < -1e-9 { bad = 1 } $1 == "floor" { up = $3 } $1 == "ceiling" { down = $2 }
      END { exit bad || NR != 6 || up != down }' room.txt || fail "$(cat room.txt)"
 exit 0

@@ -77,10 +77,10 @@ mkdir module && cp "$2"/examples/lab/* module/
 cmake -S module -B module/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 && cmake --build module/build >>cmake.log 2>&1 ||
   { cat cmake.log; echo "the lab's module does not compile"; exit 1; }
 # shellcheck disable=SC2046 # the flags are words
-cc -std=c17 -shared -fPIC module/own_experiment.c $(PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-lab.pc)") pkg-config --cflags aureole-lab) \
+cc -std=c17 -shared -fPIC module/custom_experiment.c $(PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-lab.pc)") pkg-config --cflags aureole-lab) \
   -lm -o module/by-pkg-config.so || { echo "the lab's module does not compile by pkg-config"; exit 1; }
-for module in module/build/own_experiment.so module/by-pkg-config.so; do
-  "$prefix/bin/aureole" lab run own-distances -q --module "$module" -o module/results >module.txt 2>&1 && grep -q ': holds' module.txt ||
+for module in module/build/custom_experiment.so module/by-pkg-config.so; do
+  "$prefix/bin/aureole" lab run custom-distances -q --module "$module" -o module/results >module.txt 2>&1 && grep -q ': holds' module.txt ||
     { cat module.txt; echo "$module does not run"; exit 1; }
 done
 finds "$prefix" aureole render lighting lab || { cat finder/log; echo "a component is not found"; exit 1; }

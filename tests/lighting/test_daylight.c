@@ -74,7 +74,7 @@ static void test_product(void **state) {
             for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k) {
                 double sum = 0.0;
                 for (size_t p = 0; p < PATCHES; ++p)
-                    sum += radiance[aur_daylight_place(PATCHES, h, p)] *
+                    sum += radiance[aur_daylight_index(PATCHES, h, p)] *
                            coefficients[p * AUR_DAYLIGHT_LANES + k];
                 assert_true(sum == values[h * AUR_DAYLIGHT_LANES + k]);
             }
@@ -152,12 +152,12 @@ static void test_hours(void **state) {
         double diffuse = 0.0;
         for (size_t p = 1; p < patches.count; ++p)
             diffuse +=
-                lit.radiance[aur_daylight_place(patches.count, i, p)] * aur_sky_patch_cosine(&patches, p);
+                lit.radiance[aur_daylight_index(patches.count, i, p)] * aur_sky_patch_cosine(&patches, p);
         const double height = hour->sun[2], horizontal = hour->direct * height;
         assert_true(aur_is_unit(hour->sun)); /* below the horizon it is put on it */
         assert_true((hour->direct > 0.0) == (height > 0.0));
         /* Sums over 145 patches; .5 / pi of the horizontal irradiance is the ground's radiance. */
-        const double ground = lit.radiance[aur_daylight_place(patches.count, i, 0)];
+        const double ground = lit.radiance[aur_daylight_index(patches.count, i, 0)];
         assert_relative(ground, 0.5 / AUR_PI * (diffuse + horizontal), 1e-12);
         if (hour->hour == 12)
             assert_relative(diffuse, 179.0 * fmax(350.0 - 600.0 * height, 0.0), 1e-12);

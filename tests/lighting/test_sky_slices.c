@@ -163,7 +163,7 @@ static void test_same_bits(void **state) {
         if (aur_isa_check(sets[i], NULL) != AUR_OK)
             continue;
         setenv("AUREOLE_ISA", sets[i], 1);
-        aur_isa_ask_again();
+        aur_isa_reset();
         double *const found = measure(facets, 3);
         assert_memory_equal(found, expected, facets->patch_count * RANDOMIZATIONS * sizeof *found);
         free(found);
@@ -172,7 +172,7 @@ static void test_same_bits(void **state) {
         setenv("AUREOLE_ISA", before, 1);
     else
         unsetenv("AUREOLE_ISA");
-    aur_isa_ask_again();
+    aur_isa_reset();
     free(expected);
     aur_facets_destroy(facets);
 }

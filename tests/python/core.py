@@ -412,6 +412,7 @@ class Figures(unittest.TestCase):
         xyz = aureole.points("esfg", 256, domain="sphere")
         weights, report = aureole.weights_exact(xyz, 8)
         self.assertEqual(report.degree, 8)
+        self.assertEqual((report.distinct_points, report.places), (256, 256))
         self.assertAlmostEqual(float(weights @ xyz[:, 2] ** 8), 1 / 9, delta=1e-12)
         levels, reports = aureole.weights_nested(xyz, [64, 256])
         self.assertFalse(levels[0, 64:].any())

@@ -79,7 +79,7 @@ def own_test(run):
         calls += 1
         return np.arange(run["size"])
 
-    values = run.keep("some", run["size"], measure)
+    values = run.cached("some", run["size"], measure)
     assert values.tolist() == list(range(run["size"]))
     if run["word"] == "stop":
         raise KeyboardInterrupt
@@ -93,9 +93,10 @@ def own_test(run):
             run.row("five", aureole.measure(aureole.points(run.set, 5), "l2-star"), None, None, None)
     run.note("100 % of %s")
     run.claim(False, "nothing")
-    run.picture("noise", np.full((4, 4, 3), 0.25), view="v", reference=True)
+    run.image("noise", np.full((4, 4, 3), 0.25), view="v", reference=True)
 
 
+assert (lab.Run.wants, lab.Run.keep, lab.Run.picture) == (lab.Run.requested, lab.Run.cached, lab.Run.image)  # names of version 0.1
 found = own_test(folder="own", quick=True)
 assert found.verdicts == {"agrees": 1, "within": 1, "differs": 1, "unpublished": 1} and (found.claims, found.claims_held) == (1, 0)
 assert found.table["verdict"] == ["agrees", "within a factor of 1.5", "differs", "not published"]

@@ -39,6 +39,11 @@ class Render(unittest.TestCase):
 
         aureole.write_image("python.exr", picture)
         self.assertEqual(aureole.compare("python.exr", picture), 0.0)
+        with self.assertWarnsRegex(DeprecationWarning, "compare: picture= is image= now"):
+            self.assertEqual(aureole.compare("python.exr", picture=picture), 0.0)
+        with self.assertWarns(DeprecationWarning):
+            aureole.write_image("renamed.exr", picture=picture)
+        self.assertEqual(aureole.compare("renamed.exr", image=picture), 0.0)
         other = aureole.render(scene, width=24, spp=4, seed=4)
         rmse = float(np.sqrt(np.mean((picture.astype(float) - other) ** 2)))
         self.assertAlmostEqual(aureole.compare(picture, other), rmse, delta=1e-12)

@@ -56,7 +56,7 @@ typedef struct work {
     bool *daylight;  /* the daylight hours of EN 17037; NULL: not requested */
 } work;
 
-static aur_location place_of(const aur_weather_view *weather, size_t hour) {
+static aur_location location_of(const aur_weather_view *weather, size_t hour) {
     return (aur_location){.file = weather->file, .line = weather->hours[hour].line};
 }
 
@@ -76,7 +76,7 @@ aur_result aur_weather_sun(const aur_weather_view *weather, size_t index, double
     double days = 0.0, sum = 0.0;
     if (hour->month < 1 || hour->month > 12 || hour->day < 1 || hour->day > 31 || hour->hour < 1 ||
         hour->hour > 24 || !aur_weather_days(hour, &days))
-        return aur_fail_at(error, place_of(weather, index), AUR_ERROR_ARGUMENT,
+        return aur_fail_at(error, location_of(weather, index), AUR_ERROR_ARGUMENT,
                            "unknown date %d-%d-%d with hour %d", hour->year, hour->month, hour->day,
                            hour->hour);
     size_t count = 0;
@@ -201,7 +201,7 @@ static aur_result find_hours(work *w, aur_error *error) {
             continue;
         }
         if (sky.direct < 0.0 || sky.diffuse < 0.0 || !(sky.direct + sky.diffuse < 1e6))
-            return aur_fail_at(error, place_of(w->weather, i), AUR_ERROR_ARGUMENT,
+            return aur_fail_at(error, location_of(w->weather, i), AUR_ERROR_ARGUMENT,
                                "irradiances must be 0 or more and finite");
         lit->counted += here.counts;
         if (!(sky.direct + sky.diffuse > 0.0) || (w->options->evaluated != NULL && !w->options->evaluated[i]))
@@ -236,7 +236,7 @@ static aur_result fill_block(void *context, size_t index) {
             aur_sky_patches_fill(w->patches, &uniform, sky->diffuse, row);
         row[0] = w->options->ground_albedo / AUR_PI * (sky->diffuse + sky->direct * w->lit->hours[i].sun[2]);
         for (size_t p = 0; p < patches; ++p)
-            w->lit->radiance[aur_daylight_place(patches, i, p)] = row[p];
+            w->lit->radiance[aur_daylight_index(patches, i, p)] = row[p];
     }
     free(row);
     return AUR_OK;

@@ -9,12 +9,12 @@
 enum { AUR_DAYLIGHT_LANES = 16, AUR_DAYLIGHT_BLOCK = 4 };
 
 /* values[hours][16] = radiance . coefficients[patches][16]. Radiances are stored in blocks of
- * AUR_DAYLIGHT_BLOCK hours, patch by patch: that of hour h and patch p is at aur_daylight_place. `hours` is a
+ * AUR_DAYLIGHT_BLOCK hours, patch by patch: that of hour h and patch p is at aur_daylight_index. `hours` is a
  * multiple of the block size. */
 typedef void aur_daylight_product(size_t hours, size_t patches, const double *radiance,
                                   const double *coefficients, double *values);
 
-static inline size_t aur_daylight_place(size_t patches, size_t hour, size_t patch) {
+static inline size_t aur_daylight_index(size_t patches, size_t hour, size_t patch) {
     return hour / AUR_DAYLIGHT_BLOCK * AUR_DAYLIGHT_BLOCK * patches + patch * AUR_DAYLIGHT_BLOCK +
            hour % AUR_DAYLIGHT_BLOCK;
 }

@@ -74,7 +74,7 @@ static bool next_line(reader *r) {
     return true;
 }
 
-static aur_location place_of(const reader *r) {
+static aur_location location_of(const reader *r) {
     return (aur_location){.file = r->path, .line = r->number};
 }
 
@@ -87,11 +87,11 @@ static aur_result read_number(const reader *r, size_t index, const char *what, d
                               double *value) {
     const char *const text = field(r, index);
     if (text == NULL)
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT, "the line ends before %s, its field %zu",
-                           what, index + 1);
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
+                           "the line ends before %s, its field %zu", what, index + 1);
     const char *const end = aur_read_double(*text == '+' ? text + 1 : text, AUR_NUMBER_FINITE, value);
     if (end == NULL || *end != '\0' || !(*value >= least && *value <= most))
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "%s (field %zu) must be a number from %g to %g, not '%.*s'", what, index + 1,
                            least, most, SHOWN, text);
     return AUR_OK;
@@ -106,7 +106,7 @@ static aur_result read_whole(const reader *r, size_t index, const char *what, do
     *value = (int)number;
     return number == (double)*value
                ? AUR_OK
-               : aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+               : aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                              "%s (field %zu) must be a whole number, not %g", what, index + 1, number);
 }
 
@@ -116,7 +116,7 @@ static bool begins(const reader *r, const char *word) {
 
 static aur_result read_location(reader *r, aur_weather_view *view) {
     if (!begins(r, "LOCATION"))
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "an EPW file begins with LOCATION,CITY,... and not with '%.*s'", SHOWN,
                            r->field_count > 0 ? r->fields[0] : "");
     aur_result result = read_number(r, 6, "the latitude", -90.0, 90.0, &view->latitude);
@@ -150,12 +150,12 @@ static aur_result read_periods(reader *r, aur_weather_view *view) {
             result = read_whole(r, 2, "the number of records an hour", 1.0, 60.0, &view->records);
         if (result == AUR_OK && 60 % view->records != 0)
             result =
-                aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                             "the number of records an hour (field 3) must divide 60, not %d", view->records);
         view->first_weekday = weekday_of(field(r, 4));
         return result;
     }
-    return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+    return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                        "the header of an EPW file ends with a line DATA PERIODS,1,1,...: there is none");
 }
 
@@ -187,7 +187,7 @@ static aur_result read_irradiance(const reader *r, size_t index, const char *wha
         return AUR_OK;
     }
     if (*value < 9999.0)
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "%s (field %zu) must be from 0 to 2000 W/m^2, or 9999 if it is missing, not %g",
                            what, index + 1, *value);
     *value = NAN;
@@ -233,11 +233,11 @@ static bool follows(const aur_weather_hour *before, const aur_weather_hour *hour
 
 static aur_result refuse_hour(const reader *r, const aur_weather_hour *before, const aur_weather_hour *hour) {
     if (before == NULL)
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "the first record must be hour 1 (or 0) of a day, not hour %d of %d-%d",
                            hour->hour, hour->month, hour->day);
     const bool again = hour->month == before->month && hour->day == before->day && hour->hour == before->hour;
-    return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+    return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                        "hours must follow each other%s: %d-%d, hour %d does not follow %d-%d, hour %d",
                        again ? ", with as many records as the line DATA PERIODS gives (field 3)" : "",
                        hour->month, hour->day, hour->hour, before->month, before->day, before->hour);
@@ -258,7 +258,7 @@ static aur_result read_hour(reader *r, aur_weather_hour *hour, bool *ended) {
             continue;
         }
         if (record.month != hour->month || record.day != hour->day || record.hour != hour->hour)
-            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+            return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                                "%d-%d, hour %d has %d records, and the line DATA PERIODS gives %d (field 3)",
                                hour->month, hour->day, hour->hour, records - 1, r->view->records);
         const double part = 1.0 / (double)records;
@@ -270,7 +270,7 @@ static aur_result read_hour(reader *r, aur_weather_hour *hour, bool *ended) {
     *ended = records == 0;
     return records == 0 || records == r->view->records
                ? AUR_OK
-               : aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+               : aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                              "the file ends after %d records of an hour, and the line DATA PERIODS gives %d",
                              records, r->view->records);
 }
@@ -289,14 +289,14 @@ static aur_result read_hours(reader *r, aur_weather *weather) {
         hour.hour += weather->view.from_zero;
         const aur_weather_hour *const before = count > 0 ? &weather->hours[count - 1] : NULL;
         if (count == LONGEST_YEAR)
-            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+            return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                                "more than a year: 8784 hours at most");
         if (!follows(before, &hour))
             return refuse_hour(r, before, &hour);
         weather->hours[count++] = hour;
     }
     if (count == 0 || count % DAY != 0)
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "a file must have whole days of 24 hours; this one ends after %zu hours", count);
     weather->view.count = count;
     return AUR_OK;
@@ -340,7 +340,7 @@ static aur_result read_wea_header(reader *r, aur_weather_view *view) {
                 {"weather_data_file_units", 1.0, 1.0, &units}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         if (!next_line(r) || !begins(r, rows[i].name))
-            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+            return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                                "a .wea file has a line '%s NUMBER' here", rows[i].name);
         const aur_result result = read_number(r, 1, rows[i].name, rows[i].least, rows[i].most, rows[i].value);
         if (result != AUR_OK)
@@ -363,7 +363,7 @@ static aur_result read_tmy3_record(const reader *r, aur_weather_hour *hour) {
                       sscanf(texts[1], "%2d:00", &parts[3]) == 1;
     if (!read || parts[0] < 1 || parts[0] > 12 || parts[1] < 1 || parts[1] > 31 || parts[3] < 0 ||
         parts[3] > DAY)
-        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        return aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                            "a record must begin with a date and an hour, MM/DD/YYYY,HH:00, not '%.*s'", SHOWN,
                            texts[0] != NULL ? texts[0] : "");
     hour->month = parts[0];
@@ -392,7 +392,7 @@ static aur_result read_tmy3_header(reader *r, aur_weather_view *view) {
     if (result == AUR_OK)
         result = read_number(r, 6, "the elevation", -1000.0, 9999.9, &view->elevation);
     if (result == AUR_OK && (!next_line(r) || strncmp(r->fields[0], "Date", 4) != 0))
-        result = aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+        result = aur_fail_at(r->error, location_of(r), AUR_ERROR_FORMAT,
                              "the second line of a TMY3 file begins with Date (MM/DD/YYYY),Time (HH:MM)");
     view->first_weekday = -1;
     view->records = 1;
@@ -427,7 +427,7 @@ static aur_result read_year(const char *path, char *data, size_t size, aur_weath
         for (const char *at = data; at < zero; ++at)
             r.number += *at == '\n';
         ++r.number;
-        return aur_fail_at(error, place_of(&r), AUR_ERROR_FORMAT, "a zero byte: not a text file");
+        return aur_fail_at(error, location_of(&r), AUR_ERROR_FORMAT, "a zero byte: not a text file");
     }
     const aur_result result = read_header(&r, &weather->view);
     return result == AUR_OK ? read_hours(&r, weather) : result;

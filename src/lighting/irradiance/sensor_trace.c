@@ -98,7 +98,7 @@ void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *li
         surface_point->hash = aur_hash3(surface_point->hash, bits[0], bits[1]);
     }
     const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
-    const aur_vector at = aur_place_from(scene->origin, position);
+    const aur_vector at = aur_internal_point(scene->origin, position);
     surface_point->frame = aur_frame_about(aur_vector_normalize(z));
     surface_point->position = at;
     footing before = {.height = 0.0f};

@@ -31,7 +31,7 @@ static aur_isa limited(aur_isa processor, const char *limit) {
  * often. Threads that call it first at the same time compute the same value. */
 static atomic_int cached = -1;
 
-void aur_isa_ask_again(void) {
+void aur_isa_reset(void) {
     atomic_store(&cached, -1);
 }
 

@@ -13,7 +13,7 @@ typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 
 AUR_INTERNAL aur_isa aur_isa_available(void);
 
 /* Makes the next call read the environment again: for tests of several instruction sets in one process. */
-void aur_isa_ask_again(void);
+void aur_isa_reset(void);
 
 /* The same for Embree's kernels; AUREOLE_EMBREE_ISA, if set, replaces AUREOLE_ISA. Embree's hits differ in
  * the last bits between its kernels, Aureole's results do not; a test of bit-identity fixes Embree's kernels.

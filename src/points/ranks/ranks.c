@@ -124,12 +124,12 @@ bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) 
 
 /* Whether a message is valid in the present step; otherwise it is dropped. */
 static bool accept(aur_ranks *ranks, aur_message *message) {
-    const bool asks = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
+    const bool is_request = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
     ranks->left += message->kind == AUR_MESSAGE_LEAVE;
     if (message->kind == AUR_MESSAGE_LEAVE)
         aur_ranks_fail(ranks, "rank %u has left the job%s%s", (unsigned)message->from,
                        message->size > 0 ? ": " : "", (const char *)message->data);
-    else if (message->step != ranks->step && !(asks && message->step < ranks->step))
+    else if (message->step != ranks->step && !(is_request && message->step < ranks->step))
         aur_ranks_fail(ranks,
                        "rank %u does something else than rank %zu: were all started with the same words?",
                        (unsigned)message->from, ranks->transport.rank);

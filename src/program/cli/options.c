@@ -213,12 +213,12 @@ static bool spells_computed_default(const cli_option *option, const char *text) 
 }
 
 /* The table for getopt. A long option has the value LONG_OPTION + its index, a short one its letter. */
-enum { LONG_OPTION = 256, SYNONYM_LIMIT = 4 };
+enum { LONG_OPTION = 256, SYNONYM_LIMIT = 5 };
 
-/* Synonyms, because other programs use different names for the same option: each is accepted where the
- * command has the other. */
+/* Synonyms, because other programs, or version 0.1, use different names for the same option: each is accepted
+ * where the command has the other. */
 static const char *const synonyms[SYNONYM_LIMIT][2] = {
-    {"count", "size"}, {"output", "outfile"}, {"format", "to"}, {"samples", "spp"}};
+    {"count", "size"}, {"output", "outfile"}, {"format", "to"}, {"samples", "spp"}, {"stored", "kept"}};
 
 typedef struct getopt_options {
     size_t count;
@@ -376,7 +376,7 @@ static void gather_view(const getopt_options *list, int *argc, char **argv) {
     size_t used = (size_t)aur_format(camera, sizeof camera, "--camera=");
     const size_t empty = used;
     double number;
-    int kept = 1;
+    int remaining_count = 1;
     const bool has_camera = find_name(list, "camera") != NULL;
     for (int i = 1, next; i < *argc; i = next) {
         const bool is_file =
@@ -390,13 +390,13 @@ static void gather_view(const getopt_options *list, int *argc, char **argv) {
             used +=
                 (size_t)aur_format(camera + used, sizeof camera - used, used > empty ? " %s" : "%s", argv[k]);
         for (int k = i; k < next && !is_view && !is_file; ++k)
-            argv[kept++] = argv[k];
+            argv[remaining_count++] = argv[k];
     }
     if (used > empty) { /* in front, because "--" may end the options */
-        memmove(argv + 2, argv + 1, (size_t)(kept++ - 1) * sizeof *argv);
+        memmove(argv + 2, argv + 1, (size_t)(remaining_count++ - 1) * sizeof *argv);
         argv[1] = camera;
     }
-    *argc = kept;
+    *argc = remaining_count;
 }
 
 bool cli_read_options(const cli_command *command, int argc, char **argv, cli_call *call) {

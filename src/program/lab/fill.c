@@ -125,7 +125,7 @@ void lab_table_row(report_table *table, const char *const *texts, size_t count, 
             report_number(table, numbers[i], 4);
 }
 
-bool lab_wants(const lab_run *run, const char *name) {
+bool lab_row_requested(const lab_run *run, const char *name) {
     return run->options.rows == NULL || fnmatch(run->options.rows, name, 0) == 0;
 }
 
@@ -170,7 +170,7 @@ bool lab_recall(const lab_run *run, const char *key, size_t count, double *value
     return lab_store_find(run->store, key, count, values);
 }
 
-aur_result lab_keep(lab_run *run, const char *key, size_t count, const double *values, aur_error *error) {
+aur_result lab_save(lab_run *run, const char *key, size_t count, const double *values, aur_error *error) {
     const aur_result result = lab_store_add(run->store, key, count, values, lab_run_seconds(run), error);
     const aur_progress progress = run->options.progress;
     if (result == AUR_OK && progress.function != NULL &&

@@ -26,8 +26,8 @@ static void list_image(lab_run *run, const lab_image_position *position, const c
     report_number(run->images, position->exposure, 4);
 }
 
-aur_result lab_picture(lab_run *run, const lab_image_position *position, const aur_image *image,
-                       aur_error *error) {
+aur_result lab_image(lab_run *run, const lab_image_position *position, const aur_image *image,
+                     aur_error *error) {
     static const char *const extensions[] = {"exr", "png"};
     char path[AUR_ERROR_FILE_CAPACITY], name[256];
     snprintf(name, sizeof name, "%s%s%s", position->view != NULL ? position->view : "",

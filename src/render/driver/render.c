@@ -472,7 +472,7 @@ bool aur_render_steps_agree(const aur_render *render) {
     return aur_integrator_cuts(render->integrator);
 }
 
-size_t aur_render_samples_wanted(const aur_render *render) {
+size_t aur_render_samples_target(const aur_render *render) {
     return render->settings.samples_per_pixel;
 }
 

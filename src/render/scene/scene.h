@@ -315,7 +315,7 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene);
  * accurate. Only input and output use world coordinates. `origin` is valid as long as the scene. */
 const double *aur_scene_origin(const aur_scene *scene);
 /* A world point in internal coordinates. */
-static inline aur_vector aur_place_from(const double origin[3], const double point[3]) {
+static inline aur_vector aur_internal_point(const double origin[3], const double point[3]) {
     return (aur_vector){(float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
                         (float)(point[2] - origin[2])};
 }

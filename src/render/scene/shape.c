@@ -77,7 +77,7 @@ aur_shape_point aur_triangle_sample(const aur_mesh *mesh, size_t triangle, float
     return point;
 }
 
-void aur_shape_place(const aur_shape_input *input, aur_shape *shape) {
+void aur_shape_transform(const aur_shape_input *input, aur_shape *shape) {
     aur_mesh_transform(&shape->mesh, &input->to_world, &input->to_local);
     if (input->flip_normals)
         aur_mesh_flip(&shape->mesh);

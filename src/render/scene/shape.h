@@ -170,7 +170,7 @@ aur_result aur_shape_use_attribute(aur_shape *shape, const char *name, bool *fou
 void aur_shape_release_attributes(aur_shape *shape);
 
 /* For shapes built in local coordinates: transforms the mesh to the world, and flips it if requested. */
-void aur_shape_place(const aur_shape_input *input, aur_shape *shape);
+void aur_shape_transform(const aur_shape_input *input, aur_shape *shape);
 
 /* Checks that a shape's to_world is a similarity: *scale is its factor. Errors: UNSUPPORTED. */
 aur_result aur_shape_similarity(const aur_shape_input *input, double *scale, aur_error *error);

@@ -159,7 +159,7 @@ static void renders(const aur_scene *scene) {
     accept(aur_render_create(renderer, &options, &render, &error), &error);
     accept(aur_render_step(render, 1, &error), &error);
     accept(aur_render_step(render, 1, &error), &error);
-    require(aur_render_samples(render) == 2 && aur_render_samples_wanted(render) == 2, "a render's samples");
+    require(aur_render_samples(render) == 2 && aur_render_samples_target(render) == 2, "a render's samples");
     require(aur_render_steps_agree(render), "a render by path in steps");
     aur_render_statistics statistics = {.size = sizeof statistics};
     accept(aur_render_get_statistics(render, &statistics, &error), &error);

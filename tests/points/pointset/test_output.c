@@ -95,7 +95,7 @@ static void hold_isa(const char *name) {
         setenv("AUREOLE_ISA", name, 1);
     else
         unsetenv("AUREOLE_ISA");
-    aur_isa_ask_again();
+    aur_isa_reset();
 }
 
 /* Prefixes of various lengths, starts and addresses, so that every lane, wrap and tail of a group is met. */

@@ -236,12 +236,12 @@ static void bad_input(void **state) {
     assert_int_equal(report.degree, 1);
     /* Duplicate points share a weight; given weights are unchanged. */
     assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_OK);
-    assert_true(report.degree == 1 && report.places == 2);
+    assert_true(report.degree == 1 && report.distinct_points == 2);
     assert_near(weights[0], 0.25, 1e-15);
     assert_near(weights[1], 0.5, 1e-15);
     options.near = (const double[]){0.0, 2.0, 2.0};
     assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_OK);
-    assert_true(weights[0] == 0.0 && report.places == 2);
+    assert_true(weights[0] == 0.0 && report.distinct_points == 2);
     options.near = (const double[]){0.0, -2.0, 2.0};
     assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
     options.near = (const double[]){0.0, 0.0, 0.0};
@@ -314,8 +314,10 @@ static void reports(void **state) {
     aur_error error;
     for (size_t i = 0; i < N; ++i)
         weights[i] = 1.0 / N;
-    const aur_exact_system system = {
-        .points = aur_polar_points_make(N, xyz, storage), .near = weights, .places = N, .lowest = -1.0};
+    const aur_exact_system system = {.points = aur_polar_points_make(N, xyz, storage),
+                                     .near = weights,
+                                     .distinct_points = N,
+                                     .lowest = -1.0};
     assert_int_equal(aur_exact_residual(&system, DEGREE, weights, &found, &error), AUR_OK);
     assert_true(found.residual > 1e-6);
     assert_relative(found.residual, worst_harmonic(N, xyz, weights, DEGREE), 1e-9);
@@ -325,7 +327,7 @@ static void reports(void **state) {
     options.domain = AUR_DOMAIN_AXES;
     memcpy(xyz + 3, xyz, 3 * sizeof *xyz);
     assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
-    assert_true(report.points == N && report.places == N - 1);
+    assert_true(report.points == N && report.distinct_points == N - 1);
     free(xyz);
 }
 

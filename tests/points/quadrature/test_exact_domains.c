@@ -177,7 +177,7 @@ static void doubled(void **state) {
     const aur_exact_options options = options_of(AUR_DOMAIN_ROTATIONS, 0, 2);
     assert_int_equal(aur_weights_exact(N, q, &options, N, alone, NULL, &error), AUR_OK);
     assert_int_equal(aur_weights_exact(N + 1, more, &options, N + 1, weights, &report, &error), AUR_OK);
-    assert_int_equal(report.places, N);
+    assert_int_equal(report.distinct_points, N);
     assert_near(weights[7], weights[N], 1e-15);
     assert_near(weights[7] + weights[N], alone[7], 1e-13);
     assert_near(weights[20], alone[20], 1e-13);

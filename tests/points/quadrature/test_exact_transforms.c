@@ -20,7 +20,7 @@ static void two_ways(void **state) {
         near[i] = (1.0 + 0.5 * sin((double)i)) / N;
     const aur_exact_system system = {.points = aur_polar_points_make(N, xyz, storage),
                                      .near = near,
-                                     .places = N,
+                                     .distinct_points = N,
                                      .lowest = -1.0,
                                      .tolerance = 1e-15};
     aur_exact_found found = {0};
@@ -52,7 +52,7 @@ static void transforms(void **state) {
     for (size_t k = 0; k < 3; ++k)
         for (size_t threads = 1; threads <= 3; threads += 2) {
             setenv("AUREOLE_ISA", sets[k], 1);
-            aur_isa_ask_again();
+            aur_isa_reset();
             const aur_transform transform = {
                 .basis = &basis, .points = &points, .threads = threads, .sums = room};
             const bool first = k == 0 && threads == 1;
@@ -65,7 +65,7 @@ static void transforms(void **state) {
             assert_memory_equal(reference, values, sizeof values);
         }
     unsetenv("AUREOLE_ISA");
-    aur_isa_ask_again();
+    aur_isa_reset();
     double squares = 0.0, product = 0.0;
     for (size_t j = 0; j < size; ++j)
         squares += sums[0][j] * sums[0][j];

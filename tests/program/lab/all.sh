@@ -17,7 +17,7 @@ if [ -n "${AUREOLE_SHORT_TESTS:-}" ]; then # those of a second by the list and t
 else
   checked=(--all)
 fi
-"$aureole" lab check "${checked[@]}" --quick -q --format csv --scenes "$source/scenes" --kept "$source/docs/report/results" -o results >summary.csv || {
+"$aureole" lab check "${checked[@]}" --quick -q --format csv --scenes "$source/scenes" --stored "$source/docs/report/results" -o results >summary.csv || {
   fail "the kept tables (scripts/report.sh keeps new ones):"
   grep -vE ',(identical|within tolerance|meshes missing),' summary.csv
 }

@@ -22,7 +22,7 @@ change() {
 }
 # said STATUS TEXT NAME...: the exit status and what the table says.
 said() {
-  "$aureole" lab check "${@:3}" --quick -q --scenes "$source/scenes" --kept kept -o checked >said.txt 2>&1
+  "$aureole" lab check "${@:3}" --quick -q --scenes "$source/scenes" --stored kept -o checked >said.txt 2>&1
   local status=$?
   [ $status -eq "$1" ] || fail "${*:3}: exit status $status, not $1: $(cat said.txt)"
   grep -q -- "$2" said.txt || fail "${*:3}: no '$2': $(cat said.txt)"
@@ -35,7 +35,7 @@ said 1 "^domains-grids  *DIFFERS .*row 1, $column" domains-grids
 # A standard output that takes nothing is an error with a message, whatever the tables say; check.csv has the summary.
 grep -q '^domains-grids,DIFFERS,' checked/check.csv || fail "check.csv: $(cat checked/check.csv)"
 for output in full closed; do
-  check=("$aureole" lab check domains-grids --quick -q --kept kept -o checked)
+  check=("$aureole" lab check domains-grids --quick -q --kept kept -o checked) # the name of --stored in version 0.1
   if [ $output = closed ]; then "${check[@]}" 2>said.txt >&-; elif [ -w /dev/full ]; then "${check[@]}" 2>said.txt >/dev/full; else continue; fi
   [ $? -eq 3 ] || fail "$output standard output: not exit status 3"
   grep -q 'standard output' said.txt || fail "$output standard output: $(cat said.txt)"

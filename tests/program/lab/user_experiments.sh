@@ -8,30 +8,30 @@ status=0
 fail() { echo "FAILED: $*"; status=1; }
 [ -e "$build/libaureole-lab.so" ] || { echo "skipped: the libraries are static"; exit 77; }
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
-"$cc" -std=c17 -Wall -Wextra -Werror -shared -fPIC -I "$source/include" "$source/examples/lab/own_experiment.c" -o own_experiment.so ||
+"$cc" -std=c17 -Wall -Wextra -Werror -shared -fPIC -I "$source/include" "$source/examples/lab/custom_experiment.c" -o custom_experiment.so ||
   { echo "the example does not compile"; exit 1; }
-own=(--module own_experiment.so -q -o results)
-"$aureole" lab list --module own_experiment.so | grep -q own-distances || fail "the list"
-"$aureole" lab run own-distances --set fibonacci-lattice "${own[@]}" >run.txt 2>&1 || fail "$(cat run.txt)"
+own=(--module custom_experiment.so -q -o results)
+"$aureole" lab list --module custom_experiment.so | grep -q custom-distances || fail "the list"
+"$aureole" lab run custom-distances --set fibonacci-lattice "${own[@]}" >run.txt 2>&1 || fail "$(cat run.txt)"
 grep -q 'claim: golden points.*: holds' run.txt || fail "$(cat run.txt)"
 # The rows are what the program measures.
 distance=$("$aureole" measure hammersley -n 64 -m min-distance --domain square --format csv | tail -1 | cut -d, -f4)
 awk -F, -v d="$distance" '$1 == "hammersley" && $2 == 64 { off = $3 - 8 * d; found = off < 1e-12 && off > -1e-12 } END { exit !found }' \
-  results/own-distances/own-distances.csv || fail "$(cat results/own-distances/own-distances.csv)"
-[ "$(grep -c '^callback:golden,' results/own-distances/own-distances.csv)" = 4 ] || fail "sizes"
-"$aureole" lab run own-distances -D largest=64 "${own[@]}" >run.txt 2>&1 || fail "$(cat run.txt)"
-[ "$(grep -c '^callback:golden,' results/own-distances/own-distances.csv)" = 2 ] || fail "a parameter"
-"$aureole" lab run own-distances -D nonsense=64 "${own[@]}" >run.txt 2>&1 && fail "an unknown parameter"
+  results/custom-distances/custom-distances.csv || fail "$(cat results/custom-distances/custom-distances.csv)"
+[ "$(grep -c '^callback:golden,' results/custom-distances/custom-distances.csv)" = 4 ] || fail "sizes"
+"$aureole" lab run custom-distances -D largest=64 "${own[@]}" >run.txt 2>&1 || fail "$(cat run.txt)"
+[ "$(grep -c '^callback:golden,' results/custom-distances/custom-distances.csv)" = 2 ] || fail "a parameter"
+"$aureole" lab run custom-distances -D nonsense=64 "${own[@]}" >run.txt 2>&1 && fail "an unknown parameter"
 grep -q "unknown parameter 'nonsense': expected largest" run.txt || fail "$(cat run.txt)"
-"$aureole" lab report results --module own_experiment.so -o report >run.txt 2>&1 || fail "$(cat run.txt)"
-grep -q 'own-distances' report/index.html && [ -s report/own-distances-distance.pdf ] || fail "the report"
-"$aureole" lab run own-distances -o results >run.txt 2>&1 && fail "without its module"
+"$aureole" lab report results --module custom_experiment.so -o report >run.txt 2>&1 || fail "$(cat run.txt)"
+grep -q 'custom-distances' report/index.html && [ -s report/custom-distances-distance.pdf ] || fail "the report"
+"$aureole" lab run custom-distances -o results >run.txt 2>&1 && fail "without its module"
 
 # The set of a module is one for the experiments of the tree.
 "$aureole" lab run aureole-integrand --quick --set callback:golden "${own[@]}" >run.txt 2>&1 || fail "$(cat run.txt)"
 grep -q '^callback:golden  *256' run.txt || fail "$(cat run.txt)"
 # Nothing but a module of this version is one.
-sed 's/LAB_VERSION/"0.0.1"/' "$source/examples/lab/own_experiment.c" >old.c
+sed 's/LAB_VERSION/"0.0.1"/' "$source/examples/lab/custom_experiment.c" >old.c
 "$cc" -std=c17 -shared -fPIC -I "$source/include" old.c -o old.so
 "$aureole" lab list --module old.so >run.txt 2>&1 && fail "another version"
 grep -q 'old.so: built for version 0.0.1' run.txt || fail "$(cat run.txt)"

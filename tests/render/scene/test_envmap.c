@@ -118,7 +118,7 @@ static void lanes_have_the_bits_of_single_samples(void **state) {
                      "name='to_world'><rotate x='1' y='1' angle='50'/></transform></emitter>%s",
                      rest[j]);
             setenv("AUREOLE_ISA", names[i], 1);
-            aur_isa_ask_again();
+            aur_isa_reset();
             aur_scene *const scene = must_load_body(body);
             for (uint64_t seed = 0; seed < 500; ++seed) {
                 const uint32_t lanes = seed % 4 == 0 ? 0xffff : (uint32_t)aur_hash2(9, seed) & 0xffff;
@@ -128,7 +128,7 @@ static void lanes_have_the_bits_of_single_samples(void **state) {
             aur_scene_destroy(scene);
         }
     unsetenv("AUREOLE_ISA");
-    aur_isa_ask_again();
+    aur_isa_reset();
 }
 
 int main(void) {

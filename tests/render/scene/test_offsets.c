@@ -117,7 +117,7 @@ static aur_scene *load_shape(size_t shape, double size, size_t turn, double away
 static size_t test_place(size_t shape, double size, size_t turn, double away, size_t *tried) {
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
     aur_scene *const scene = load_shape(shape, size, turn, away, "");
-    const aur_vector point = aur_place_from(aur_scene_origin(scene), at);
+    const aur_vector point = aur_internal_point(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < 60; ++i) {
         /* Towards positions around the origin, some of them very near to it. */
@@ -162,7 +162,7 @@ static size_t test_light(size_t shape, double size, size_t turn, double away, si
     enum { RAYS = 400 };
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
     aur_scene *const scene = load_shape(shape, size, turn, away, "<emitter type='area'/>");
-    const aur_vector point = aur_place_from(aur_scene_origin(scene), at);
+    const aur_vector point = aur_internal_point(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < RAYS; ++i) {
         const float distance = (float)size * powf(10.0f, 5.0f * unit(i, 6) - 2.0f);

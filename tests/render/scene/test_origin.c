@@ -145,7 +145,7 @@ static void compare_rays(const aur_scene *near, const aur_scene *far, const doub
             for (size_t d = 0; d < 3; ++d)
                 start[d] = (k == 0 ? 0.0 : offset[d]) - 4.0 * (double)*aur_channel(&way, d) +
                            (double)*aur_channel(&aim, d);
-            const aur_ray ray = {aur_place_from(aur_scene_origin(scenes[k]), start), 0.0f, way, INFINITY};
+            const aur_ray ray = {aur_internal_point(aur_scene_origin(scenes[k]), start), 0.0f, way, INFINITY};
             met[k] = aur_scene_intersect(scenes[k], &ray, &hit[k]);
             if (met[k])
                 aur_scene_surface(scenes[k], &ray, &hit[k], &surface[k]);
@@ -227,8 +227,8 @@ static void lights_and_cameras_move(void **state) {
         for (size_t i = 0; i < 200; ++i) {
             const double at[3] = {(double)unit(1, i), (double)unit(2, i), (double)unit(3, i)};
             const double there[3] = {offsets[p][0] + at[0], offsets[p][1] + at[1], offsets[p][2] + at[2]};
-            const aur_vector a = aur_place_from(aur_scene_origin(near), at);
-            const aur_vector b = aur_place_from(aur_scene_origin(far), there);
+            const aur_vector a = aur_internal_point(aur_scene_origin(near), at);
+            const aur_vector b = aur_internal_point(aur_scene_origin(far), there);
             const float u[3] = {unit(4, i), unit(5, i), unit(6, i)};
             aur_light_sample one, other;
             assert_true(aur_light_sample_direct(near, &(aur_light_reference){.position = a}, u, &one) ==

@@ -171,7 +171,7 @@ static aur_result solve(factor *f, size_t degree, bool search, double *weights, 
     size_t rank = 0;
     bool exact = true;
     aur_exact_factoring factoring = {.earlier = 0.0};
-    const size_t full = (size_t)sqrt((double)f->system->places),
+    const size_t full = (size_t)sqrt((double)f->system->distinct_points),
                  end = search && full < degree ? full : degree;
     for (size_t l = 0; l <= degree && exact; ++l) {
         exact = add_degree(f, l);
@@ -204,7 +204,7 @@ aur_result aur_exact_direct(const aur_exact_system *system, size_t degree, bool 
                 .kernel = &AUR_KERNEL_HERE(aur_transform_kernel),
                 .basis = &basis,
                 .count = system->points.count,
-                .capacity = system->places};
+                .capacity = system->distinct_points};
     result = AUR_ERROR_MEMORY;
     if (allocate(&f, degree, error))
         result = solve(&f, degree, search, weights, found, error);

@@ -143,9 +143,10 @@ static size_t least_of(size_t a, size_t b) {
  * degree k vanishes at all points, and its square has a positive integral. */
 static size_t degree_bound(const aur_exact_system *system) {
     if (system->space == NULL)
-        return least_of(2 * (size_t)sqrt((double)system->places) - 1, AUR_BASIS_DEGREE_MAX);
+        return least_of(2 * (size_t)sqrt((double)system->distinct_points) - 1, AUR_BASIS_DEGREE_MAX);
     size_t degree = 0;
-    while (2 * degree < AUR_BASIS_DEGREE_MAX && aur_exact_functions(system, degree) <= system->places)
+    while (2 * degree < AUR_BASIS_DEGREE_MAX &&
+           aur_exact_functions(system, degree) <= system->distinct_points)
         ++degree;
     return least_of(2 * degree - 1, AUR_BASIS_DEGREE_MAX);
 }
@@ -261,7 +262,7 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
     climbs(&l, 0);
     /* Uniform sets on the sphere have positive weights to about this degree; elsewhere low degrees are fast.
      */
-    size_t next = system->space == NULL ? (size_t)sqrt((double)system->places / 1.3) : 1;
+    size_t next = system->space == NULL ? (size_t)sqrt((double)system->distinct_points / 1.3) : 1;
     for (size_t step = 1; l.low + 1 < l.high && l.result == AUR_OK;) {
         if (next >= l.high || next <= l.low)
             next = l.low + (l.high - l.low) / 2;
@@ -288,7 +289,7 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
                         "no weights were found for these %zu points (%zu distinct) that integrate all %zu %s "
                         "of degree %zu "
                         "to %g: use the largest degree that has weights",
-                        count, system->places, aur_exact_functions(system, found->degree),
+                        count, system->distinct_points, aur_exact_functions(system, found->degree),
                         system->space != NULL && system->space->domain == AUR_DOMAIN_ROTATIONS
                             ? "functions"
                             : "polynomials",
@@ -367,7 +368,7 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
                                      .least = found.least * count,
                                      .largest = found.largest * count,
                                      .points = weighed,
-                                     .places = system->places,
+                                     .distinct_points = system->distinct_points,
                                      .iterations = found.iterations};
     return result;
 }
@@ -402,7 +403,7 @@ static aur_result weigh_orbits(size_t count, const double *xyz, const aur_exact_
             weights[i] += found[g * count + i];
     }
     of_images.points = count;
-    of_images.places = (of_images.places + order - 1) / order;
+    of_images.distinct_points = (of_images.distinct_points + order - 1) / order;
     if (result == AUR_OK && report != NULL)
         *report = of_images;
     free(images);
@@ -423,7 +424,7 @@ static aur_result weigh(size_t count, const double *points, const aur_exact_opti
             .points = space != NULL ? (aur_polar_points){.count = count}
                                     : aur_polar_points_make(count, points, storage),
             .space = space,
-            .places = share(count, space != NULL ? space->dimension : 3, points, o, order, near),
+            .distinct_points = share(count, space != NULL ? space->dimension : 3, points, o, order, near),
             .near = near,
             .lowest = lowest,
             .exponent = o->lobe.exponent,

@@ -13,8 +13,8 @@ typedef struct aur_exact_system {
     aur_polar_points points;
     aur_exact_space
         *space; /* the functions, or NULL: polynomials on the sphere; of the points only the count is used */
-    const double *near; /* of sum 1, not negative; points of weight 0 keep weight 0 */
-    size_t places;      /* distinct points with weight */
+    const double *near;     /* of sum 1, not negative; points of weight 0 keep weight 0 */
+    size_t distinct_points; /* distinct points with weight */
     double lowest, exponent;
     double tolerance; /* steps end when the error of every function is at most this */
     size_t threads;

@@ -60,7 +60,7 @@ static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, or those of the source tree",
               "folder of the bundled scenes"),
      .key.computed = true, .content = "folder"},
-    {CLI_TEXT(cli_lab, stored, "kept", "DIR", "./docs/report/results, or those of the source tree",
+    {CLI_TEXT(cli_lab, stored, "stored", "DIR", "./docs/report/results, or those of the source tree",
               "folder of the stored tables that check compares with"),
      .key.computed = true, .content = "folder"},
     {.key = {0}}};

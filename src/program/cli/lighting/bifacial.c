@@ -156,26 +156,26 @@ static void turn(const double from[3], const double to[3], double vector[3]) {
 static aur_result place_sensors(work *w, const aur_sensors_view *sensors, const double *normal) {
     double *const positions = w->frame, *const normals = w->frame + 6 * w->count;
     for (size_t i = 0; i < w->count; ++i) {
-        double position[3], own[3], length = sqrt(dot(sensors->normals + 3 * i, sensors->normals + 3 * i));
+        double position[3], from[3], length = sqrt(dot(sensors->normals + 3 * i, sensors->normals + 3 * i));
         for (size_t d = 0; d < 3; ++d) {
-            own[d] = sensors->normals[3 * i + d] / length;
+            from[d] = sensors->normals[3 * i + d] / length;
             position[d] = sensors->positions[3 * i + d] - w->given->pivot[d];
         }
         if (normal != NULL) {
             length = sqrt(dot(normal, normal));
             const double to[3] = {normal[0] / length, normal[1] / length, normal[2] / length};
-            if (dot(own, to) < -0.999999)
+            if (dot(from, to) < -0.999999)
                 return aur_fail(w->error, AUR_ERROR_ARGUMENT,
                                 "--tracker: a normal opposite to that of sensor %zu: it can turn to any side",
                                 i);
-            turn(own, to, position);
-            memcpy(own, to, sizeof own);
+            turn(from, to, position);
+            memcpy(from, to, sizeof from);
         }
         for (size_t d = 0; d < 3; ++d) {
             positions[3 * i + d] = position[d] + w->given->pivot[d];
-            positions[3 * (w->count + i) + d] = positions[3 * i + d] - 2.0 * w->run->lift * own[d];
-            normals[3 * i + d] = own[d];
-            normals[3 * (w->count + i) + d] = -own[d];
+            positions[3 * (w->count + i) + d] = positions[3 * i + d] - 2.0 * w->run->lift * from[d];
+            normals[3 * i + d] = from[d];
+            normals[3 * (w->count + i) + d] = -from[d];
         }
     }
     return AUR_OK;

@@ -277,8 +277,8 @@ static aur_scene_options loading(const cli_call *call) {
     load.sky.ground_albedo = given->daylight.options.ground_albedo;
     memcpy(load.sky.up, given->daylight.options.up, sizeof load.sky.up);
     memcpy(load.sky.north, given->daylight.options.north, sizeof load.sky.north);
-    load.lamp_count = given->sky.lamp_count;
-    load.lamps = given->sky.lamps;
+    load.luminaire_count = given->sky.luminaire_count;
+    load.luminaires = given->sky.luminaires;
     return load;
 }
 
@@ -310,7 +310,7 @@ static void warn_of_units(const irradiance_command *given, const aur_scene *scen
         warnings.function(warnings.user,
                           "lux of --sky perez are too large: its W/m2 are of the whole solar spectrum, about "
                           "110 lm/W; --weather converts them by the state of the sky");
-    if (given->sky.lamp_count > 0 && (extent > LARGEST || extent < SMALLEST)) {
+    if (given->sky.luminaire_count > 0 && (extent > LARGEST || extent < SMALLEST)) {
         aur_format(text, sizeof text,
                    "the scene is %.4g units wide and luminaires are in metres: check the units of the scene",
                    extent);

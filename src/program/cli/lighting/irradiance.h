@@ -73,8 +73,8 @@ enum { CLI_LUMINAIRE_LIMIT = 256 };
 typedef struct cli_sky {
     aur_scene_sky sky;
     bool daylight_factor;
-    size_t lamp_count;
-    aur_scene_lamp lamps[CLI_LUMINAIRE_LIMIT];
+    size_t luminaire_count;
+    aur_scene_luminaire luminaires[CLI_LUMINAIRE_LIMIT];
 } cli_sky;
 extern const cli_option cli_sky_options[]; /* of a cli_sky */
 /* False, with a message, if options conflict. */

@@ -7,7 +7,7 @@
 
 /* Parses FILE@X,Y,Z[,AIMX,AIMY,AIMZ[,TURN]]; the field is the number of luminaires. */
 static aur_result parse_luminaire(const char *text, void *field, aur_error *error) {
-    cli_sky *const given = (cli_sky *)(void *)((char *)field - offsetof(cli_sky, lamp_count));
+    cli_sky *const given = (cli_sky *)(void *)((char *)field - offsetof(cli_sky, luminaire_count));
     char *const at = strrchr(text, '@');
     double n[7] = {0.0};
     const size_t count = at != NULL && at > text ? cli_split_numbers(at + 1, 7, n) : 0;
@@ -16,15 +16,17 @@ static aur_result parse_luminaire(const char *text, void *field, aur_error *erro
                         "--lamp: must be a file and its position, aim and turn, like lamp.ies@2,1,2.8 or "
                         "lamp.ies@2,1,2.8,0,0,-1,90, not '%s'",
                         text);
-    if (given->lamp_count == CLI_LUMINAIRE_LIMIT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "--lamp: more than %d lamps", (int)CLI_LUMINAIRE_LIMIT);
+    if (given->luminaire_count == CLI_LUMINAIRE_LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--lamp: more than %d luminaires",
+                        (int)CLI_LUMINAIRE_LIMIT);
     *at = '\0'; /* an argument of the program */
-    given->lamps[given->lamp_count++] = (aur_scene_lamp){text, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]};
+    given->luminaires[given->luminaire_count++] =
+        (aur_scene_luminaire){text, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]};
     return AUR_OK;
 }
 
 const cli_option cli_sky_options[] = {
-    {CLI_TEXT(cli_sky, lamp_count, "lamp", "FILE@X,Y,Z[,AIM[,TURN]]", NULL,
+    {CLI_TEXT(cli_sky, luminaire_count, "lamp", "FILE@X,Y,Z[,AIM[,TURN]]", NULL,
               "add a luminaire from an IES or EULUMDAT file at a position; AIM is a direction X,Y,Z (down by "
               "default); may be repeated"),
      .parse = parse_luminaire},

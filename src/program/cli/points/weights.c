@@ -163,7 +163,7 @@ static void find_figures(const cli_weights_arguments *arguments, const cli_weigh
     if (arguments->method == CLI_METHOD_EXACT) {
         const aur_exact_report *const exact = &result->exact[k];
         const double found[] = {(double)exact->degree, exact->residual, exact->least, exact->largest,
-                                (double)exact->places};
+                                (double)exact->distinct_points};
         memcpy(figures + 6, found, sizeof found);
         return;
     }

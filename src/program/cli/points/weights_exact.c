@@ -43,7 +43,7 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     cli_progress_clear();
     const aur_warnings warnings = points->warnings;
     const size_t last = result->lobe_count - 1;
-    if (status == AUR_OK && result->exact[last].places < result->exact[last].points &&
+    if (status == AUR_OK && result->exact[last].distinct_points < result->exact[last].points &&
         warnings.function != NULL)
         warnings.function(warnings.user, "points lie on each other and share their weights");
     return status;

@@ -150,7 +150,7 @@ static size_t next_step(const aur_render *render, bool displayed) {
     const size_t done = aur_render_samples(render);
     if (displayed)
         return done > 0 ? done : 1;
-    return done == 0 && aur_render_steps_agree(render) ? aur_render_samples_wanted(render) / 2 : 0;
+    return done == 0 && aur_render_steps_agree(render) ? aur_render_samples_target(render) / 2 : 0;
 }
 
 static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
@@ -158,7 +158,7 @@ static aur_result render_steps(aur_render *render, render_command *command, cli_
     const bool displayed =
         errors != NULL || (cli_watch_is_requested(&command->watch) && aur_render_steps_agree(render));
     aur_result result = AUR_OK;
-    while (result == AUR_OK && aur_render_samples(render) < aur_render_samples_wanted(render)) {
+    while (result == AUR_OK && aur_render_samples(render) < aur_render_samples_target(render)) {
         result = cli_watch_step(&command->watch, render, next_step(render, displayed), error);
         if (result == AUR_OK && errors != NULL)
             result = cli_errors_note(errors, render, error);

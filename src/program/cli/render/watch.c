@@ -111,12 +111,12 @@ static void report_samples(cli_watch *watch, const aur_render *render) {
     if (relative > 0.0)
         aur_format(error, sizeof error, "; the error is at most about %.2g %% of the mean", 100.0 * relative);
     aur_format(text, sizeof text, "%zu of %zu samples per pixel%s", aur_render_samples(render),
-               aur_render_samples_wanted(render), error);
+               aur_render_samples_target(render), error);
     watch_describe(watch->watch, text);
 }
 
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error) {
-    const double total_samples = (double)aur_render_samples_wanted(render);
+    const double total_samples = (double)aur_render_samples_target(render);
     watch->from = (double)aur_render_samples(render) / total_samples;
     watch->to = count > 0 ? fmin(watch->from + (double)count / total_samples, 1.0) : 1.0;
     const aur_result result = aur_render_step(render, count, error);

@@ -88,7 +88,7 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     (void)error;
     photometric_light *const self = emitter->data;
-    self->middle = aur_place_from(emitter->scene->origin, self->world_middle);
+    self->middle = aur_internal_point(emitter->scene->origin, self->world_middle);
     return AUR_OK;
 }
 

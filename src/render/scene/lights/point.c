@@ -86,7 +86,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     (void)error;
     point_light *const self = emitter->data;
-    self->position = aur_place_from(emitter->scene->origin, self->world_position);
+    self->position = aur_internal_point(emitter->scene->origin, self->world_position);
     return AUR_OK;
 }
 

@@ -23,7 +23,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     for (size_t i = 0; i < 36; ++i)
         mesh->indices[i] = (uint32_t)(4 * (i / 6)) + indices[i % 6];
-    aur_shape_place(input, shape);
+    aur_shape_transform(input, shape);
     return AUR_OK;
 }
 

@@ -80,7 +80,7 @@ aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, 
         result = aur_mesh_split_creases(&shape->mesh, keys.crease_angle, shape->location, error);
     if (result != AUR_OK)
         return result;
-    aur_shape_place(input, shape);
+    aur_shape_transform(input, shape);
     shape->smooth = !keys.face_normals && shape->mesh.normals == NULL;
     return AUR_OK;
 }

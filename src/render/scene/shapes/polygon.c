@@ -48,7 +48,7 @@ static aur_result make_mesh(const aur_shape_input *input, size_t count, const do
         for (size_t i = 0; i < 3 * cut.triangle_count; ++i)
             shape->mesh.indices[i] =
                 shape->parallelogram ? halves[i] : (uint32_t)((cut.indices[i] + count - first) % count);
-        aur_shape_place(input, shape);
+        aur_shape_transform(input, shape);
     }
     aur_triangulator_release(&work);
     return result;

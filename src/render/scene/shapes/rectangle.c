@@ -18,7 +18,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     for (size_t i = 0; i < 6; ++i)
         mesh->indices[i] = indices[i];
     shape->parallelogram = true;
-    aur_shape_place(input, shape);
+    aur_shape_transform(input, shape);
     return AUR_OK;
 }
 

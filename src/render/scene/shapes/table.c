@@ -110,7 +110,7 @@ static void recenter_curves(aur_shape *shape, const double origin[3]) {
 }
 
 aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool with_points, aur_error *error) {
-    shape->center = aur_place_from(origin, shape->position);
+    shape->center = aur_internal_point(origin, shape->position);
     if (shape->curves.segment_count > 0)
         recenter_curves(shape, origin);
     if (shape->curved != NULL)

@@ -167,7 +167,7 @@ aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_
 }
 
 /* The luminaire points along its local -z, with C 0 along +x. */
-aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *luminaire, bool z_up) {
+aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_luminaire *luminaire, bool z_up) {
     double z[3] = {-luminaire->aim[0], -luminaire->aim[1], -luminaire->aim[2]}, x[3] = {1.0, 0.0, 0.0}, y[3];
     if (!(aur_normalize3(z) > 0.0))
         z[z_up ? 2 : 1] = 1.0;

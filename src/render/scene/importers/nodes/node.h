@@ -154,4 +154,4 @@ void aur_nodes_transform(aur_nodes *nodes, aur_xml_node *first, const aur_scene_
  * Errors: ARGUMENT for an invalid model, date or location; MEMORY. */
 aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_up);
 /* Adds a luminaire in the same way. Errors: MEMORY. */
-aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *luminaire, bool z_up);
+aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_luminaire *luminaire, bool z_up);

@@ -466,8 +466,8 @@ static aur_result add_lights(reading *shared, const char *path) {
         .location = {.file = aur_arena_copy(&shared->document->tree.arena, path, strlen(path))},
         .error = shared->error};
     aur_result result = options->sky.model != NULL ? aur_nodes_add_sky(&nodes, &options->sky, z_up) : AUR_OK;
-    for (size_t i = 0; i < options->lamp_count && result == AUR_OK; ++i)
-        result = aur_nodes_add_luminaire(&nodes, &options->lamps[i], z_up);
+    for (size_t i = 0; i < options->luminaire_count && result == AUR_OK; ++i)
+        result = aur_nodes_add_luminaire(&nodes, &options->luminaires[i], z_up);
     return result;
 }
 

@@ -1,6 +1,6 @@
-"""An experiment and a set of one's own in Python.
+"""A custom experiment and a custom set in Python.
 
-    python own_experiment.py --quick --set r2 -o results --report report
+    python custom_experiment.py --quick --set r2 -o results --report report
 
 The set is the golden ratio's lattice; the experiment integrates a bump by sets that are shifted at random, with intervals.
 """
@@ -28,7 +28,7 @@ def bump(points):
     plots=[lab.Plot("rmse", x="points", y="rmse", low="low", high="high", series="set", log_x=True, log_y=True)],
     parameters={"seeds": 32},
 )
-def own_bump(run):
+def custom_bump(run):
     """Root mean square errors of the integral of a bump."""
     seeds = 8 if run.quick else run["seeds"]
     truth = bump(aureole.points("sobol", 2**18)).mean()
@@ -42,7 +42,7 @@ def own_bump(run):
                     shifted = (aureole.points(name, n, scramble="shift", seed=1 + k) for k in range(seeds))
                     return [(bump(points).mean() - truth) ** 2 for points in shifted]
 
-                rmse = lab.root_mean(run.keep(f"{name} {n}", seeds, squares))
+                rmse = lab.root_mean(run.cached(f"{name} {n}", seeds, squares))
                 run.row(name, n, *rmse)
                 errors.append(rmse.value)
         ends[name] = errors[-1]
@@ -52,4 +52,4 @@ def own_bump(run):
 
 if __name__ == "__main__":
     aureole.register_set("golden", golden)
-    lab.main(own_bump)
+    lab.main(custom_bump)

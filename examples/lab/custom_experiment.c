@@ -1,8 +1,8 @@
-/* An experiment and a set of one's own, outside of Aureole's tree: a module of the lab.
+/* A custom experiment and a custom set outside of Aureole's source tree: a module of the lab.
  *
- *     cc -std=c17 -shared -fPIC own_experiment.c $(pkg-config --cflags aureole-lab) -lm -o
- * own_experiment.so aureole lab run own-distances --module own_experiment.so --set r2 -D largest=256 -o
- * results aureole lab report results --module own_experiment.so -o report
+ *     cc -shared -fPIC custom_experiment.c $(pkg-config --cflags aureole-lab) -lm -o custom_experiment.so
+ *     aureole lab run custom-distances --module custom_experiment.so --set r2 -D largest=256 -o results
+ *     aureole lab report results --module custom_experiment.so -o report
  *
  * The set is the golden ratio's lattice; the experiment compares smallest distances, times the root of N. */
 #include <aureole-lab/lab.h>
@@ -65,7 +65,7 @@ static const report_plot plots[] = {{.name = "distance",
                                      .series = "set",
                                      .log_x = true},
                                     {.name = NULL}};
-static const lab_experiment distances = {.name = "own-distances",
+static const lab_experiment distances = {.name = "custom-distances",
                                          .reproduces = "nothing yet",
                                          .summary = "smallest distances of a few sets",
                                          .columns = columns,

@@ -1,7 +1,7 @@
-/* A sampler of your own beside the library's: judged by its measures, and handed to whatever takes the name
+/* A custom sampler compared with the library's: judged by its measures, and handed to whatever takes the name
  * of a set.
  *
- *     cc examples/own_set.c -laureole -lm -o own_set && ./own_set
+ *     cc examples/custom_set.c -laureole -lm -o custom_set && ./custom_set
  *
  * The sampler is the R sequence of the plastic number, shifted. Points go in as they lie in memory; what
  * makes its own points by name takes them from a file, as the set `file:PATH`, from C, Python and the command
@@ -25,19 +25,19 @@ static void judge(const char *name, const aur_points_view *points) {
 }
 
 int main(void) {
-    double own[2 * COUNT];
+    double custom[2 * COUNT];
     const double plastic = 1.32471795724474602596;
     for (size_t i = 0; i < COUNT; ++i)
         for (int d = 0; d < 2; ++d)
-            own[2 * i + d] = fmod(0.5 + (double)i / (d == 0 ? plastic : plastic * plastic), 1.0);
-    const aur_points_view view = aur_points_view_of(AUR_DOMAIN_SQUARE, COUNT, 2, own);
-    judge("own", &view);
+            custom[2 * i + d] = fmod(0.5 + (double)i / (d == 0 ? plastic : plastic * plastic), 1.0);
+    const aur_points_view view = aur_points_view_of(AUR_DOMAIN_SQUARE, COUNT, 2, custom);
+    judge("custom", &view);
 
     aur_points_format format;
     if (aur_points_format_from_name("npy", &format, &error) != AUR_OK ||
-        aur_points_write("own.npy", format, &view, NULL, &error) != AUR_OK)
+        aur_points_write("custom.npy", format, &view, NULL, &error) != AUR_OK)
         return 1;
-    const char *const sets[] = {"file:own.npy", "sobol"};
+    const char *const sets[] = {"file:custom.npy", "sobol"};
     for (int which = 0; which < 2; ++which) {
         aur_directions_options options = {.size = sizeof options};
         aur_directions_options_init(COUNT, AUR_DOMAIN_SQUARE, &options, NULL);
