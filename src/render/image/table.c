@@ -107,6 +107,9 @@ aur_result aur_image_find_writer(const char *path, const char *format, const aur
     }
     char list[128];
     aur_list_names(count - 1, names, sizeof list, list);
+    if (extension[0] == '\0')
+        return aur_fail(error, AUR_ERROR_NAME, "'%s' has no extension: expected %s or %s", path, list,
+                        names[count - 1]);
     return aur_fail(error, AUR_ERROR_NAME, "unknown image format of '%s': expected %s or %s", extension, list,
                     names[count - 1]);
 }

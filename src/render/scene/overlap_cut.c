@@ -619,6 +619,13 @@ void aur_scene_warn_of_overlaps(const aur_scene *scene, const aur_warnings *warn
     if (found->count == 0)
         return;
     const aur_shape *const first = scene->shapes[found->shapes[0]];
+    if (first->location.line == 0) { /* shapes of a model have neither a line nor a name */
+        aur_warn_at(warnings, scene->shapes[found->shapes[1]]->location,
+                    "%zu triangles lie in the plane of others that come first in the file, and are cut where "
+                    "those cover them",
+                    found->count);
+        return;
+    }
     aur_warn_at(
         warnings, scene->shapes[found->shapes[1]]->location,
         "%zu triangles lie in the plane of others that come first in the file, and are cut where those "

@@ -309,8 +309,10 @@ aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_descripti
 }
 
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {
-    return scene->has_sensor ? AUR_OK
-                             : aur_xml_fail(scene->document.tree.root, error, "the scene has no <sensor>");
+    return scene->has_sensor
+               ? AUR_OK
+               : aur_xml_fail(scene->document.tree.root, error,
+                              "the scene has no <sensor>: add one, or choose a view (--camera)");
 }
 
 const aur_film_settings *aur_scene_film(const aur_scene *scene) {

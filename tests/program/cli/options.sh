@@ -36,6 +36,7 @@ refuses "--count: must be a size N of at least 1, A:B" measure sobol -n 4,0 --me
 refuses "--format: must be one of table, csv, json, latex, not 'jsn'; did you mean 'json'?" sets --format jsn
 refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lamber'; did you mean 'lambert'?" \
   points sobol -n 4 --domain disk --map lamber
+refuses "-o: 'image' has no extension: expected exr, pfm, hdr, png or jpg" render a.xml -o image
 refuses "--to: must be one of exr, pfm, hdr, png, jpg, not 'gif'" convert a b --to gif
 refuses "-D: 'width' is not of the form name=value" info a.xml -D width
 refuses "unexpected argument 'halton'" points sobol halton -n 4

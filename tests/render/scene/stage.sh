@@ -53,6 +53,10 @@ for view in front back left right top bottom corner iso 200,-35; do
   "$aureole" render one.obj $depth --width 96 --height 64 --camera $view -o $view.pfm || fail "no view $view"
   /usr/bin/python3 look.py filled $view.pfm || fail "the view $view does not fill the image"
 done
+printf '<scene version="3.0.0"><include filename="one.obj"/></scene>' >bare.xml
+"$aureole" render bare.xml $depth --width 96 --height 64 --camera iso -o bare.pfm && /usr/bin/python3 look.py filled bare.pfm || fail "a scene without a sensor has no view by --camera"
+"$aureole" render bare.xml $depth -o bare.pfm 2>said && fail "a scene without a sensor is rendered"
+grep -q 'bare.xml:1:.*the scene has no <sensor>: add one, or choose a view (--camera)' said || fail "no sensor: $(cat said)"
 "$aureole" render one.obj $depth --width 96 --height 64 -o default.pfm && cmp default.pfm corner.pfm || fail "a model is not seen from the corner"
 "$aureole" render one.obj $depth --width 40 --height 96 --camera iso -o high.pfm && /usr/bin/python3 look.py filled high.pfm || fail "a narrow image is not filled"
 for model in small large away; do
@@ -160,12 +164,16 @@ refused() {
 }
 refused "unknown camera 'fornt'" --camera fornt
 refused "unknown camera '1,2,3'" --camera 1,2,3
-refused 'another point' --camera 1,2,3,1,2,3
+refused 'a point other than its position' --camera 1,2,3,1,2,3
 refused 'sky:TURBIDITY' --environment sky:20
 refused "unknown environment 'skyy'; did you mean 'sky'" --environment skyy
 refused "there are: studio, sky, sky:TURBIDITY, none" --environment park
 refused "cannot find 'nothing.exr'" --environment nothing.exr
 refused 'R,G,B' --background 1,2
 refused 'FILE@X,Y,Z' one.obj@1,2
-refused "need a .png output" --exposure 1
+refused "need a .png or .jpg output" --exposure 1
+# Triangles of a model in one plane have no line to name.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\nf 1 4 5\n' >overlap.obj
+"$aureole" render overlap.obj --integrator depth --spp 1 --width 8 -o overlap.pfm 2>said
+grep -q 'overlap.obj: 1 triangles lie in the plane of others .* and are cut where those cover them$' said || fail "overlaps of a model: $(cat said)"
 exit 0

@@ -106,7 +106,10 @@ static void print_result(const aur_adaptive *adaptive, const cli_target *target,
     aur_adaptive_get_report(adaptive, &report, NULL);
     const aur_render_statistics *const spent = &report.statistics;
     if (!(report.mean > 0.0)) {
-        aur_print(stderr, "aureole: %s is black: no light of the scene reaches the camera\n", output);
+        aur_print(
+            stderr,
+            "aureole: %s is black: no light of the scene reaches the camera (--camera, --environment)\n",
+            output);
         return;
     }
     print_command(adaptive, target, &report);

@@ -12,9 +12,9 @@ typedef struct convert_options {
 
 static const cli_option options[] = {
     {CLI_REAL(convert_options, write.exposure, "exposure", "STOPS", -100, 100, "0",
-              "multiply radiance by 2^STOPS (PNG)")},
+              "multiply radiance by 2^STOPS (PNG, JPEG)")},
     {CLI_CHOICE(convert_options, write.tone, "tone", "CURVE", "srgb",
-                "tone curve (PNG); radiance 1 is white by default"),
+                "tone curve (PNG, JPEG); radiance 1 is white by default"),
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
     {CLI_FLAG(convert_options, write.half, "half", "write 16-bit floats instead of 32-bit ones (EXR)")},
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,

@@ -92,9 +92,10 @@ aur_result cli_oidn_open(cli_oidn **created, aur_error *error) {
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "--denoise: the library in AUREOLE_OIDN: %s",
                         dlerror());
     if (loaded.library == NULL)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "--denoise: Open Image Denoise not found: install libopenimagedenoise, or name its "
-                        "library in AUREOLE_OIDN, such as .../pyoidn/lib/libOpenImageDenoise.so.2");
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "--denoise: Open Image Denoise not found: install the PyPI package pyoidn, and name its "
+            "library in AUREOLE_OIDN, such as .../pyoidn/lib/libOpenImageDenoise.so.2");
     cli_oidn *const oidn = find_all(&loaded) ? malloc(sizeof *oidn) : NULL;
     if (oidn == NULL) {
         dlclose(loaded.library);

@@ -111,11 +111,12 @@ static aur_result parse_exposure(const char *text, void *field, aur_error *error
 }
 
 const cli_option cli_display_options[] = {
-    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0, or auto for models too bright or dim",
-              "multiply radiance by 2^STOPS (PNG); auto: scale the geometric mean of the luminance to .18"),
+    {CLI_TEXT(
+         cli_display, exposure, "exposure", "STOPS", "0, or auto for models too bright or dim",
+         "multiply radiance by 2^STOPS (PNG, JPEG); auto: scale the geometric mean of the luminance to .18"),
      .parse = parse_exposure, .key.computed = true},
     {CLI_CHOICE(cli_display, tone, "tone", "CURVE", "srgb",
-                "tone curve (PNG); radiance 1 is white by default"),
+                "tone curve (PNG, JPEG); radiance 1 is white by default"),
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
     {.key = {0}}};
 
@@ -147,8 +148,8 @@ const char *cli_display_conflict(const cli_display *display, const char *output)
     if (plain || aur_image_find_writer(output, NULL, &format, NULL) != AUR_OK ||
         aur_row_find_key(format, "exposure") != NULL)
         return NULL;
-    return "render: '--exposure' and '--tone' need a .png output: 'aureole convert' applies them to other "
-           "files";
+    return "render: '--exposure' and '--tone' need a .png or .jpg output: 'aureole convert' applies them "
+           "to other files";
 }
 
 /* At more stops from the automatic exposure, most pixels without exposure are white or black. */

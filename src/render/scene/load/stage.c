@@ -25,6 +25,14 @@ typedef struct stage {
     double ground; /* half the ground's side over the scene's diagonal; 0: no ground */
 } stage;
 
+void aur_stage_add_sensor(aur_nodes *nodes, const aur_scene_stage *options) {
+    bool has_sensor = false;
+    for (const aur_xml_node *node = nodes->tree->root->first_child; node != NULL; node = node->next)
+        has_sensor = has_sensor || strcmp(node->tag, "sensor") == 0;
+    if (options->camera != NULL && !has_sensor && strncmp(options->camera, "-v", 2) != 0)
+        aur_node_object(nodes, nodes->tree->root, "sensor", "perspective");
+}
+
 bool aur_stage_replaces(const aur_scene_stage *options, const aur_xml_node *node) {
     const char *const type = aur_xml_attribute_value(node, "type");
     if (options->environment == NULL || strcmp(node->tag, "emitter") != 0 || type == NULL)

@@ -55,6 +55,8 @@ char *aur_studio_fade(size_t *size);
 
 /* --- the stage (stage.c) */
 
+/* Adds a sensor to a <scene> that has none, if a view of the options can place it. */
+void aur_stage_add_sensor(aur_nodes *nodes, const aur_scene_stage *stage);
 /* Whether a child of <scene> is skipped because the stage replaces it. */
 bool aur_stage_replaces(const aur_scene_stage *stage, const aur_xml_node *node);
 /* Builds the stage after all children of <scene>; adds further children. Errors: those of aur_scene_load. */

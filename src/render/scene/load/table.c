@@ -152,7 +152,8 @@ aur_result aur_scene_build(aur_scene *scene, const aur_scene_options *options, a
         return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
                            left_out->result, "%s", left_out->message);
     const aur_scene_stage *const stage = &options->stage;
-    result = build_all(&self, stage, root->first_child);
+    aur_stage_add_sensor(&nodes, stage);
+    result = nodes.result == AUR_OK ? build_all(&self, stage, root->first_child) : nodes.result;
     aur_xml_node *const last = root->last_child;
     if (result == AUR_OK)
         result = aur_stage_set(&self, options);
