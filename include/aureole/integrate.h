@@ -85,7 +85,8 @@ typedef struct aur_integrate_options {
     double resolution;
 } aur_integrate_options;
 
-/* One percent of the value with 95 % confidence, by 16 randomisations and at most 2^22 evaluations. */
+/* One percent of the value with 95 % confidence, by 16 randomisations, at least 2^19 evaluations (see
+ * `resolution`: if no feature of a slow function is narrow, set it to 1) and at most 2^22. */
 AUR_API aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options,
                                               aur_error *error) AUR_NONNULL(2);
 
