@@ -247,10 +247,17 @@ static void pool_pixels(aur_candidate *candidate) {
                         candidate->pixels);
 }
 
+/* The side of the cells of pixels that get samples together; 0: single pixels. */
+static size_t cell_of(const aur_candidate *candidate) {
+    const aur_render *const render = candidate->replicas.renders[0];
+    return aur_render_integrator(render)->whole_tiles ? AUR_TILE_SIZE : aur_render_film(render)->layout.cell;
+}
+
 /* Combines the last round's variances with the prediction from the rounds before. A variance from a few
  * replicas has few degrees of freedom: they may agree by chance in this round but did not in earlier ones.
  * The bound is the end of the interval if the earlier rounds showed more error, or emitters may have been
- * missed. */
+ * missed. Under `display` what a pixel needs for an emitter is averaged over its cell: otherwise the others'
+ * samples exceed their targets, and their variances, divided by targets, come out too high. */
 static void pool_variances(aur_candidate *candidate) {
     double measured = 0.0, pooled = 0.0, visible = 0.0;
     for (size_t i = 0; i < candidate->value_count; ++i) {
@@ -261,6 +268,9 @@ static void pool_variances(aur_candidate *candidate) {
         pooled += candidate->variances[i];
         visible += emitters;
     }
+    const size_t cell = cell_of(candidate);
+    if (cell > 0 && candidate->error_measure == AUR_ERROR_MEASURE_DISPLAY)
+        aur_replicas_average(&candidate->replicas, cell, candidate->variances);
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
         candidate->bound = visible > 0.0 ? INFINITY : 0.0;
@@ -314,9 +324,8 @@ static void measure(aur_candidate *candidate, double confidence) {
  * together. */
 static void smooth(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
-    const bool tiles = aur_render_integrator(replicas->renders[0])->whole_tiles;
-    const size_t cell = tiles ? AUR_TILE_SIZE : aur_render_film(replicas->renders[0])->layout.cell;
-    if (!tiles)
+    const size_t cell = cell_of(candidate);
+    if (!aur_render_integrator(replicas->renders[0])->whole_tiles)
         aur_replicas_smooth(replicas, candidate->measured, candidate->scratch);
     for (size_t i = 0; i < candidate->value_count; ++i)
         candidate->measured[i] /= candidate->targets[i];

@@ -124,6 +124,38 @@ static void knows_its_integrator(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Pixels of a cell get samples together, so what one of them needs for an emitter counts for all: the numbers
+ * of samples by which variances are divided are those of the film. */
+static void knows_the_samples_of_cells(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.width = options.height = SIDE;
+    options.sampler = "sobol";
+    options.filter = "gaussian";
+    enum { REPLICAS = 4 };
+    aur_candidate candidate = {.integrator = strdup("path")};
+    assert_int_equal(
+        aur_candidate_create(renderer, &options, REPLICAS, AUR_ERROR_MEASURE_DISPLAY, &candidate, NULL),
+        AUR_OK);
+    atomic_bool cancelled = false;
+    for (size_t round = 0; round < 4; ++round) {
+        assert_true(aur_candidate_plan(&candidate, 0.5));
+        assert_int_equal(aur_candidate_render(&candidate, 0.95, &cancelled, NULL), AUR_OK);
+        for (size_t i = 0; i < candidate.value_count; ++i) {
+            const size_t pixels = candidate.replicas.pixel_count;
+            const aur_film *const film = aur_render_film(candidate.replicas.renders[i / pixels]);
+            assert_int_equal(candidate.targets[i], film->counts[i % pixels]);
+        }
+    }
+    aur_candidate_release(&candidate);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 static void meets_emitters(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
@@ -165,6 +197,7 @@ static void meets_emitters(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reports_the_size_of_an_emitter), cmocka_unit_test(uses_more_rays_for_emitters),
-        cmocka_unit_test(knows_its_integrator), cmocka_unit_test(meets_emitters)};
+        cmocka_unit_test(knows_its_integrator), cmocka_unit_test(knows_the_samples_of_cells),
+        cmocka_unit_test(meets_emitters)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
