@@ -72,7 +72,7 @@ printf 'white polygon p 0 0 10 0 0 0 1 0 0 2 0 0 1\n' >bad.rad
 refused "bad.rad:1: " irradiance colours.rad lamp.rad bad.rad --sensors points.pts
 printf '\n\n!cat bad.rad\n' >outer.rad
 refused "bad.rad:1: " irradiance colours.rad outer.rad --sensors points.pts
-refused "no material 'white' above" irradiance parts/room.rad colours.rad --sensors points.pts
+refused "unknown material 'white'" irradiance parts/room.rad colours.rad --sensors points.pts
 printf '!cat loop.rad\n' >loop.rad
 refused "nested deeper than" irradiance loop.rad --sensors points.pts
 refused "none.rad" irradiance colours.rad none.rad --sensors points.pts

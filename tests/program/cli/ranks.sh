@@ -104,7 +104,7 @@ refuses() { # refuses WORDS STATUS COMMAND...
 refuses 'the work of one process' 2 mpirun -n 2 "$aureole" points sobol -n 4
 refuses 'cannot read' 2 mpirun -n 2 "$aureole" render none.xml
 refuses 'AUREOLE_ISA' 2 mpirun -n 1 "$aureole" render "$scene" : -n 1 -x AUREOLE_ISA=portable "$aureole" render "$scene"
-refuses 'does not know' 2 env OMPI_COMM_WORLD_SIZE=2 "$aureole" render "$scene"
+refuses 'launcher of another MPI' 2 env OMPI_COMM_WORLD_SIZE=2 "$aureole" render "$scene"
 [ "$(grep -c aureole: said)" = 1 ] || fail "an error is told more than once: $(cat said)"
 
 # A build without MPI.

@@ -133,6 +133,13 @@ static aur_result build_all(aur_loader *self, const aur_scene_stage *stage, aur_
     return result;
 }
 
+/* The sensor that a view places in a scene without one. */
+static aur_result add_sensor(aur_loader *self, aur_nodes *nodes, const aur_scene_stage *stage) {
+    const aur_xml_node *const last = nodes->tree->root->last_child;
+    aur_stage_add_sensor(nodes, stage);
+    return nodes->result == AUR_OK ? build_all(self, stage, last->next) : nodes->result;
+}
+
 aur_result aur_scene_build(aur_scene *scene, const aur_scene_options *options, aur_error *error) {
     aur_loader self = {.scene = scene,
                        .warnings = &options->warnings,
@@ -152,8 +159,9 @@ aur_result aur_scene_build(aur_scene *scene, const aur_scene_options *options, a
         return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
                            left_out->result, "%s", left_out->message);
     const aur_scene_stage *const stage = &options->stage;
-    aur_stage_add_sensor(&nodes, stage);
-    result = nodes.result == AUR_OK ? build_all(&self, stage, root->first_child) : nodes.result;
+    result = build_all(&self, stage, root->first_child);
+    if (result == AUR_OK && scene->shape_count > 0)
+        result = add_sensor(&self, &nodes, stage);
     aur_xml_node *const last = root->last_child;
     if (result == AUR_OK)
         result = aur_stage_set(&self, options);
