@@ -127,7 +127,8 @@ done
 refuses "cannot be combined" $measure sobol -n 4 --metric all,star
 # A net has a power of its base as its size: such a figure is left out, and said.
 prints "no net: a net in base 2" $measure halton -n 8,12 --metric all
-[ "$($measure halton -q -n 8,12 --metric all --format csv | cut -d, -f9 | paste -sd' ')" = "net 3 nan" ] ||
+[ "$($measure halton -q -n 8,12 --metric all --format csv |
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "net") at = i } { print $at }' | paste -sd' ')" = "net 3 nan" ] ||
   fail "--metric all of 12 points: $($measure halton -q -n 8,12 --metric all --format csv)"
 refuses "--domain" $measure - --metric all <octahedron.csv
 prints 0.239146 $measure - --domain sphere --metric all <octahedron.csv
