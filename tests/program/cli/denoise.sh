@@ -87,4 +87,25 @@ grep -q 'denoised half of the samples: [0-9.]* % of the local mean (relative), a
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"
 AUREOLE_OIDN=$stub render -o d.png --denoise --spp 2 && [ -s d.png ] && render -o plain.exr --filter box --spp 2 && cmp d.noisy.exr plain.exr || fail "a PNG and what stands beside it"
+
+# Isolated bright pixels after denoising with Open Image Denoise itself, where AUREOLE_OIDN or the system has it.
+isolated() { "$aureole" convert "$1" counted.pfm --channels "$2" && python3 "$source/tests/program/cli/isolated.py" counted.pfm; }
+small() { "$aureole" render "$source/scenes/$1.xml" -q --width 64 --integrator path -o a.exr "${@:2}"; }
+if ! small cornell-box/cornell-box --spp 1 --denoise 2>message.txt && grep -q 'Open Image Denoise not found' message.txt; then
+  echo "without Open Image Denoise: its isolated pixels are not counted"
+else
+  # A mirrored lamp may be one bright pixel: as many as in the image of many samples.
+  for scene in cornell-box/cornell-box cornell-box/glossy room/room; do
+    [ "$scene" != room/room ] || [ -e "$source/scenes/generated/wood.exr" ] || continue # scripts/scenes.sh makes it
+    small "$scene" --filter box --spp 256 || fail "$scene: no image"
+    read -r true _ < <(isolated a.exr R,G,B)
+    for option in --rounds --spp; do # with the limit of changes, and without
+      small "$scene" "$option" 2 --denoise || fail "$scene $option: not denoised"
+      read -r noisy _ < <(isolated a.exr noisy.R,noisy.G,noisy.B)
+      read -r clean _ < <(isolated a.exr R,G,B)
+      { [ "$noisy" -gt 10 ] && [ "$clean" -le "$true" ]; } ||
+        fail "$scene $option 2: $noisy isolated bright pixels, $clean after denoising, $true of 256 samples"
+    done
+  done
+fi
 exit $((failures > 0))
