@@ -22,10 +22,10 @@ parade|parade/parade.xml|--width 960 --error 9% --error-measure mean|1.3|filmic|
 figure|cornell-box/figure.xml|--width 960 --error 3% --error-measure mean|1.6|filmic|A carved hare in the Cornell box
 sphere|sphere/sphere.xml|--width 960 --error 8% --error-measure mean|0.5|filmic|A glossy sphere among seeds
 occlusion|occlusion/occlusion.xml|--width 960 --error 2% --error-measure mean|0|srgb|Ambient occlusion among columns
-atrium|atrium/atrium.xml|--integrator finalgather --width 480 --samples 16|3.5|filmic|A court below sun and sky
-shop|shop/shop.xml|--integrator finalgather --width 540 --samples 16|0.8|filmic|A shop window and its 130 bulbs
-shafts|shafts/shafts.xml|--width 330 --samples 128|1|filmic|Shafts of sun in a dusty shed
-caustics|caustics/caustics.xml|--integrator ptracer --width 540 --samples 256|0|filmic|Caustics of glass and gold, by light tracing
+atrium|atrium/atrium.xml|--integrator finalgather --width 480 --samples 96|3.5|filmic|A court below sun and sky
+shop|shop/shop.xml|--integrator finalgather --width 540 --samples 96|0.8|filmic|A shop window and its 130 bulbs
+shafts|shafts/shafts.xml|--width 330 --samples 1024|1|filmic|Shafts of sun in a dusty shed
+caustics|caustics/caustics.xml|--integrator ptracer --width 540 --samples 1024|0|filmic|Caustics of glass and gold, by light tracing
 plates|plates/plates.xml|--width 960 --error 6% --error-measure mean|1|filmic|Four plates and seven lights
 cornell-box|cornell-box/cornell-box.xml|--width 960 --error 1% --error-measure mean|0.5|srgb|The measured Cornell box
 glossy|cornell-box/glossy.xml|--width 960 --error 3% --error-measure mean|1|srgb|A teapot in a glossy Cornell box
