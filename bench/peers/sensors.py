@@ -3,7 +3,7 @@
 
     python3 bench/peers/sensors.py AUREOLE [--facets 1000000] [--sensors 100000] [-n 64]
 
-The city is that of city.py, with diffuse facets under a uniform sky. Prints CPU seconds of `aureole irradiance` with one path edge (a
+The city comes from city.py, with diffuse facets under a uniform sky. Prints CPU seconds of `aureole irradiance` with one path edge (a
 ray and a shadow ray per direction) and with four, without the time for reading the scene, and whether one thread and three give
 identical bytes. The baseline is `aureole render --integrator ao` on the city, which does no shading.
 """

@@ -11,7 +11,7 @@ Renderers that are not installed are skipped with a message. All of them are unb
 images with different seeds: the root of half their mean squared difference, relative to the mean. It is measured at two numbers
 of samples per pixel and extrapolated with a power law for the error and a line for the time. The time is user + system seconds of all
 threads in the render call: imports, loading and the first compilation of kernels (llvm_ad_rgb) are excluded, which
-favors the other renderers; Aureole's time is that of whole processes. Cycles gets the scene's triangles, normals and texture from Mitsuba and
+favors the other renderers; Aureole's time includes the whole process. Cycles gets the scene's triangles, normals and texture from Mitsuba and
 its Principled BSDF for rough plastic (with the same base color, index and roughness), so its image is similar,
 not identical.
 

@@ -4,9 +4,9 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pvlib
     /tmp/peers/bin/python bench/peers/trackers.py build/release/aureole [--epw FILE]
 
-The weather file is that of scripts/weather.sh unless --epw names another. pvlib's singleaxis and get_total_irradiance (the models perez and
+The weather file comes from scripts/weather.sh unless --epw names another. pvlib's singleaxis and get_total_irradiance (the models perez and
 isotropic) receive the sun's position in the middle of the sunlit part of each hour, without refraction. Aureole's modules stand in an empty
-scene: the sky is that of Perez, Seals and Michalsky (1993), and the ground reflects .2 of the global irradiance.
+scene: the sky follows Perez, Seals and Michalsky (1993), and the ground reflects .2 of the global irradiance.
 """
 import argparse
 import csv

@@ -42,7 +42,7 @@ static const aur_key keys[] = {
                         "a point, whatever dimensions the file has")},
     {AUR_KEY_OF_REAL(
         photometric_keys, "focus", focus, 0.0, 1e9, "0",
-        "distance of Radiance's focus behind the opening: light at the distance d is that of d + "
+        "distance of Radiance's focus behind the opening: the distance d receives the light of d + "
         "focus; particle tracing ignores it")},
 };
 
