@@ -269,6 +269,10 @@ aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
         if (result == AUR_OK && !again)
             result = aur_adaptive_check_bias(adaptive, true, &again, error);
     }
+    if (adaptive->candidate.rounds > 0) {
+        aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
+        aur_adaptive_bound_others(adaptive);
+    }
     atomic_store(&adaptive->cancelled, false);
     return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
                                          : result;

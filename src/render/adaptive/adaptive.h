@@ -57,8 +57,9 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
 /* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 
-/* Computes `bias` by all measures from the corrections. */
+/* Computes `bias` by all measures from the corrections; by those that no round depends on. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
+void aur_adaptive_bound_others(aur_adaptive *adaptive);
 /* Must be called after each round; `last`: the noise target is met. Renders corrections, bounds the bias, and
  * switches to the next candidate if it is, or may be, too large: then `again` is true, and rounds start
  * again. */

@@ -3,6 +3,7 @@
 #include <aureole/statistics.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "points/base/error.h"
 #include "render/driver/renderer.h"
@@ -24,18 +25,19 @@ static void differences_of(const aur_replicas *replicas, size_t first, aur_weigh
                            const double (*values)[3], size_t count, const size_t *pixels,
                            double d[AUR_REPLICAS_MAX][3]) {
     const double step = 1e-3;
-    for (size_t r = 0; r < replicas->count; ++r) {
-        d[r][0] = d[r][1] = d[r][2] = 0.0;
-        for (size_t p = 0; p < count; ++p) {
-            double errors[3], differences[3];
-            aur_replicas_colour(replicas, r, pixels[p], first, errors);
+    double light[AUR_REPLICAS_MAX * AUR_BLOCK_PIXELS][3];
+    aur_replicas_read(replicas, (const size_t[2]){pixels[0], pixels[count - 1]}, first, count, light);
+    memset(d, 0, replicas->count * sizeof *d);
+    for (size_t p = 0; p < count; ++p) {
+        double errors[AUR_REPLICAS_MAX][3], differences[AUR_REPLICAS_MAX][3];
+        for (size_t r = 0; r < replicas->count; ++r)
             for (size_t c = 0; c < 3; ++c)
-                errors[c] *= step;
-            aur_error_apply(weighing.measure, &weighing.weights[pixels[p]], values[pixels[p]], errors,
-                            differences);
+                errors[r][c] = step * light[r * count + p][c];
+        aur_error_apply(weighing.measure, &weighing.weights[pixels[p]], values[pixels[p]], replicas->count,
+                        (const double(*)[3])errors, differences);
+        for (size_t r = 0; r < replicas->count; ++r)
             for (size_t c = 0; c < 3; ++c)
-                d[r][c] += differences[c] / (step * (double)count);
-        }
+                d[r][c] += differences[r][c] / (step * (double)count);
     }
 }
 

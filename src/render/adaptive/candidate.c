@@ -287,18 +287,12 @@ void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure) {
                     (const double(*)[3])candidate->values + count, candidate->weights);
 }
 
-/* The interval of one measure, whose `pixels` may be NULL. */
-static aur_error_interval measure_by(aur_candidate *candidate, aur_error_measure measure, double confidence,
-                                     const aur_pixel_measure *pixels) {
-    const aur_replicas *const replicas = &candidate->replicas;
-    const size_t count = replicas->pixel_count;
-    aur_candidate_weigh(candidate, measure);
-    aur_replicas_measure(replicas, (aur_weighing){measure, candidate->weights}, &candidate->measure, pixels);
-    if (pixels != NULL)
-        pool_pixels(candidate);
-    if (!(candidate->measure.mean > 0.0))
+static aur_error_interval interval_of(const aur_candidate *candidate, const aur_replica_measure *measure,
+                                      double confidence) {
+    if (!(measure->mean > 0.0))
         return (aur_error_interval){.estimate = INFINITY, .low = INFINITY, .high = INFINITY, .degrees = 1.0};
-    return aur_replica_interval(&candidate->measure.deviations, replicas->count, 3 * count, confidence);
+    return aur_replica_interval(&measure->deviations, candidate->replicas.count,
+                                3 * candidate->replicas.pixel_count, confidence);
 }
 
 void aur_candidate_measure(aur_candidate *candidate) {
@@ -306,18 +300,30 @@ void aur_candidate_measure(aur_candidate *candidate) {
     aur_replicas_mean(&candidate->replicas, candidate->values);
     aur_error_smooth(layout->x1 - layout->x0, layout->y1 - layout->y0, (const double(*)[3])candidate->values,
                      candidate->values + candidate->replicas.pixel_count);
+    aur_candidate_weigh(candidate, candidate->error_measure);
 }
 
-/* By all measures, the target's last, so that its results remain stored. */
+/* By the target's measure. */
 static void measure(aur_candidate *candidate, double confidence) {
+    const aur_error_measure m = candidate->error_measure;
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_measure(candidate);
-    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) {
+    aur_replicas_measure(&candidate->replicas, (aur_weighing){m, candidate->weights}, &candidate->measure,
+                         &pixels);
+    pool_pixels(candidate);
+    candidate->intervals[m] = interval_of(candidate, &candidate->measure, confidence);
+}
+
+void aur_candidate_measure_others(aur_candidate *candidate, double confidence) {
+    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
         const size_t m = (candidate->error_measure + k) % AUR_ERROR_MEASURE_COUNT;
-        const bool last = k == AUR_ERROR_MEASURE_COUNT;
-        candidate->intervals[m] =
-            measure_by(candidate, (aur_error_measure)m, confidence, last ? &pixels : NULL);
+        aur_replica_measure other;
+        aur_candidate_weigh(candidate, (aur_error_measure)m);
+        aur_replicas_measure(&candidate->replicas, (aur_weighing){(aur_error_measure)m, candidate->weights},
+                             &other, NULL);
+        candidate->intervals[m] = interval_of(candidate, &other, confidence);
     }
+    aur_candidate_weigh(candidate, candidate->error_measure);
 }
 
 /* Converts variances of single samples to those of the replicas' values, averaged over units that get samples

@@ -53,8 +53,10 @@ void aur_candidate_release(aur_candidate *candidate);
 /* Adds the cost of a candidate, which may not have been created. */
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
-/* Computes `values` from the films, as each round does. */
+/* Computes `values` and `weights` from the films, as each round does. */
 void aur_candidate_measure(aur_candidate *candidate);
+/* The intervals by the other measures, which no round depends on. */
+void aur_candidate_measure_others(aur_candidate *candidate, double confidence);
 /* Sets `weights` to those of a measure, from the values of the last round. */
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 

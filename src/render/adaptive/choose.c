@@ -169,11 +169,10 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
 
 /* --- bias */
 
-/* By one measure; irradiance shared by neighbours adds a separate bias. */
+/* By the measure of the candidate's weights; irradiance shared by neighbours adds a separate bias. */
 static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
-    aur_candidate *const candidate = &adaptive->candidate;
+    const aur_candidate *const candidate = &adaptive->candidate;
     const double confidence = adaptive->target.confidence;
-    aur_candidate_weigh(candidate, measure);
     const aur_weighing weighing = {measure, candidate->weights};
     const double(*const values)[3] = (const double(*)[3])candidate->values;
     aur_bias bias = aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
@@ -183,17 +182,21 @@ static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
     adaptive->bias[measure] = bias;
 }
 
-/* The candidate's weights remain those of the requested measure. */
-static void bound_others(aur_adaptive *adaptive) {
-    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k)
-        bound_bias_by(adaptive,
-                      (aur_error_measure)((adaptive->target.measure + k) % AUR_ERROR_MEASURE_COUNT));
-    aur_candidate_weigh(&adaptive->candidate, adaptive->target.measure);
+void aur_adaptive_bound_others(aur_adaptive *adaptive) {
+    const aur_error_measure asked = adaptive->target.measure;
+    if (adaptive->corrections.steps == 0 || aur_candidate_is_black(&adaptive->candidate))
+        return;
+    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
+        const aur_error_measure m = (aur_error_measure)((asked + k) % AUR_ERROR_MEASURE_COUNT);
+        aur_candidate_weigh(&adaptive->candidate, m);
+        bound_bias_by(adaptive, m);
+    }
+    aur_candidate_weigh(&adaptive->candidate, asked);
 }
 
 void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
     bound_bias_by(adaptive, adaptive->target.measure);
-    bound_others(adaptive);
+    aur_adaptive_bound_others(adaptive);
 }
 
 /* Adds blocks where the differences between them dominate, else samples. */
@@ -260,8 +263,6 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
     }
     if (!grown && !last) /* by the values of the round; its last check has nothing new */
         bound_bias_by(adaptive, adaptive->target.measure);
-    if (grown || !last)
-        bound_others(adaptive);
     adaptive->unchecked = false;
     const bool too_large = bounded && bias->low > room;
     *again = too_large || (bounded && last && bias->high > room);

@@ -53,12 +53,13 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
     for (size_t b = entry->blocks; b < count; ++b) {
         size_t pixels[PIXELS];
         const size_t pixel_count = pixels_of(race, b, pixels);
-        for (size_t i = 0; i < pixel_count * replicas->count; ++i) {
-            double value[3];
-            aur_replicas_colour(replicas, i % replicas->count, pixels[i / replicas->count], 0, value);
+        double light[AUR_REPLICAS_MAX * PIXELS][3];
+        aur_replicas_read(replicas, (const size_t[2]){pixels[0], pixels[pixel_count - 1]}, 0, pixel_count,
+                          light);
+        for (size_t i = 0; i < pixel_count * replicas->count; ++i)
             for (size_t c = 0; c < 3; ++c)
-                values_at(race, entry, b, 0)[3 * i + c] = (float)value[c];
-        }
+                values_at(race, entry, b, 0)[3 * i + c] =
+                    (float)light[i % replicas->count * pixel_count + i / replicas->count][c];
     }
     entry->blocks = count;
     return AUR_OK;

@@ -73,31 +73,24 @@ void aur_spent_add(aur_spent *sum, const aur_replicas *replicas, uint64_t prepar
     }
 }
 
-void aur_replicas_colour(const aur_replicas *replicas, size_t r, size_t pixel, size_t first,
-                         double value[3]) {
-    aur_film_colour(aur_render_film(replicas->renders[r]), pixel, first, value);
+void aur_replicas_read(const aur_replicas *replicas, const size_t corners[2], size_t first, size_t stride,
+                       double (*values)[3]) {
+    for (size_t r = 0; r < replicas->count; ++r)
+        aur_film_colours(aur_render_film(replicas->renders[r]), corners, first, values + r * stride);
 }
 
-/* The mean of a pixel's channels `first` to `first` + 2 over the replicas, and their deviations from it. */
-static void find_deviations(const aur_replicas *replicas, size_t pixel, size_t first, double mean[3],
+/* The mean of a pixel's values, values[replica * stride], over the replicas, and their deviations from it. */
+static void find_deviations(size_t count, size_t stride, const double (*values)[3], double mean[3],
                             double d[3][AUR_REPLICAS_MAX]) {
     mean[0] = mean[1] = mean[2] = 0.0;
-    for (size_t r = 0; r < replicas->count; ++r) {
-        double value[3];
-        aur_replicas_colour(replicas, r, pixel, first, value);
+    for (size_t r = 0; r < count; ++r)
         for (size_t c = 0; c < 3; ++c) {
-            d[c][r] = value[c];
-            mean[c] += value[c] / (double)replicas->count;
+            d[c][r] = values[r * stride][c];
+            mean[c] += values[r * stride][c] / (double)count;
         }
-    }
-    for (size_t r = 0; r < 3 * replicas->count; ++r)
-        d[r % 3][r / 3] -= mean[r % 3];
-}
-
-void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
-    double d[3][AUR_REPLICAS_MAX];
-    for (size_t i = 0; i < replicas->pixel_count; ++i)
-        find_deviations(replicas, i, 0, values[i], d);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t r = 0; r < count; ++r)
+            d[c][r] -= mean[c];
 }
 
 /* Converts the replicas' deviations d[channel][replica] from `mean` to those of a pixel's differences.
@@ -106,21 +99,21 @@ void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]) {
     const double part = 1.0 / (double)(count - 1);
-    double sums[3] = {0.0};
+    double steps[AUR_REPLICAS_MAX][3], differences[AUR_REPLICAS_MAX][3];
     if (weighing.weights == NULL)
         return;
-    for (size_t r = 0; r < count; ++r) {
-        double differences[3];
-        const double step[3] = {-part * d[0][r], -part * d[1][r], -part * d[2][r]};
-        aur_error_apply(weighing.measure, &weighing.weights[pixel], mean, step, differences);
-        for (size_t c = 0; c < 3; ++c) {
-            d[c][r] = -differences[c] / part;
-            sums[c] += d[c][r];
-        }
-    }
     for (size_t r = 0; r < count; ++r)
         for (size_t c = 0; c < 3; ++c)
-            d[c][r] -= sums[c] / (double)count;
+            steps[r][c] = -part * d[c][r];
+    aur_error_apply(weighing.measure, &weighing.weights[pixel], mean, count, (const double(*)[3])steps,
+                    differences);
+    for (size_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (size_t r = 0; r < count; ++r)
+            sum += d[c][r] = -differences[r][c] / part;
+        for (size_t r = 0; r < count; ++r)
+            d[c][r] -= sum / (double)count;
+    }
 }
 
 /* Correlation between pixels is estimated within blocks of this side. */
@@ -137,6 +130,34 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t co
                          .x1 = (x + side < layout->x1 ? x + side : layout->x1) - layout->x0,
                          .y0 = (y > layout->y0 ? y : layout->y0) - layout->y0,
                          .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
+}
+
+/* Values of a block's pixels in all replicas: of pixel i in replica r the entry r * BLOCK_PIXELS + i. */
+enum { BLOCK_PIXELS = BLOCK * BLOCK };
+typedef double block_values[AUR_REPLICAS_MAX * BLOCK_PIXELS][3];
+
+static void read_block(const aur_replicas *replicas, const pixel_range *block, size_t first,
+                       block_values values) {
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0;
+    const size_t corners[2] = {block->y0 * width + block->x0, (block->y1 - 1) * width + block->x1 - 1};
+    aur_replicas_read(replicas, corners, first, BLOCK_PIXELS, values);
+}
+
+void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    block_values block;
+    double d[3][AUR_REPLICAS_MAX];
+    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
+        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
+            const pixel_range at = cell_of(layout, BLOCK, column, row);
+            const size_t width = at.x1 - at.x0, count = width * (at.y1 - at.y0);
+            read_block(replicas, &at, 0, block);
+            for (size_t i = 0; i < count; ++i)
+                find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])block + i,
+                                values[(at.y0 + i / width) * (layout->x1 - layout->x0) + at.x0 + i % width],
+                                d);
+        }
 }
 
 /* Each replica's variance of one sample of a pixel, by the deviations of the other replicas from their mean.
@@ -158,29 +179,31 @@ static void find_variances(const aur_replicas *replicas, size_t pixel, const aur
             ((others - 1.0) * (all - shares[r]));
 }
 
-static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
-    aur_gram gram = {.count = count};
+/* Only the products of `count` replicas are set. */
+static void find_gram(size_t count, double d[3][AUR_REPLICAS_MAX], aur_gram *gram) {
+    gram->count = count;
     for (size_t r = 0; r < count; ++r)
-        for (size_t s = 0; s < count; ++s)
-            for (size_t channel = 0; channel < 3; ++channel)
-                gram.products[r][s] += d[channel][r] * d[channel][s];
-    return gram;
+        for (size_t s = 0; s <= r; ++s)
+            gram->products[r][s] = gram->products[s][r] =
+                d[0][r] * d[0][s] + d[1][r] * d[1][s] + d[2][r] * d[2][s];
 }
 
 /* Adds a block's pixels to the measure, and to its variances and spreads of pixels. */
 static void measure_block(const aur_replicas *replicas, aur_weighing weighing, pixel_range block,
                           aur_replica_measure *measure, const aur_pixel_measure *pixels) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    aur_gram gram = {.count = replicas->count};
-    for (size_t y = block.y0; y < block.y1; ++y)
-        for (size_t x = block.x0; x < block.x1; ++x) {
+    aur_gram gram = {.count = replicas->count}, of_pixel;
+    block_values values;
+    read_block(replicas, &block, 0, values);
+    for (size_t y = block.y0, i = 0; y < block.y1; ++y)
+        for (size_t x = block.x0; x < block.x1; ++x, ++i) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             double d[3][AUR_REPLICAS_MAX], means[3];
-            find_deviations(replicas, pixel, 0, means, d);
+            find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])values + i, means, d);
             for (size_t channel = 0; channel < 3; ++channel)
                 measure->mean += means[channel];
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
-            const aur_gram of_pixel = gram_of(replicas->count, d);
+            find_gram(replicas->count, d, &of_pixel);
             const double spread = aur_deviations_add_pixel(&measure->deviations, &of_pixel);
             if (pixels != NULL) {
                 find_variances(replicas, pixel, &of_pixel, pixels->variances);
@@ -266,19 +289,35 @@ bool aur_replicas_clamp(const aur_replicas *replicas) {
 }
 
 /* A pixel's means of some replicas in three channels, and their standard errors. */
-static void develop_pixel(const aur_replicas *replicas, size_t first, size_t step, size_t pixel,
-                          size_t channel, float values[6]) {
-    const double count = (double)((replicas->count - first + step - 1) / step);
+static void develop_pixel(size_t count, size_t first, size_t step, const double (*values)[3],
+                          float developed[6]) {
+    const double part = (double)((count - first + step - 1) / step);
     double mean[3], d[3][AUR_REPLICAS_MAX];
-    find_deviations(replicas, pixel, channel, mean, d);
+    find_deviations(count, BLOCK_PIXELS, values, mean, d);
     for (size_t c = 0; c < 3; ++c) {
         double squares = 0.0, sum = 0.0;
-        for (size_t r = 0; r < replicas->count; ++r)
+        for (size_t r = 0; r < count; ++r)
             squares += d[c][r] * d[c][r];
-        for (size_t r = first; r < replicas->count; r += step)
+        for (size_t r = first; r < count; r += step)
             sum += d[c][r];
-        values[c] = (float)(step == 1 ? mean[c] : mean[c] + sum / count);
-        values[3 + c] = (float)sqrt(squares / (count * (double)(replicas->count - 1)));
+        developed[c] = (float)(step == 1 ? mean[c] : mean[c] + sum / part);
+        developed[3 + c] = (float)sqrt(squares / (part * (double)(count - 1)));
+    }
+}
+
+/* Three channels from `channel` on, and `most` - 3 of their errors, of a block. */
+static void develop_block(const aur_replicas *replicas, const pixel_range *block, size_t first, size_t step,
+                          size_t channel, size_t most, aur_image *image) {
+    const size_t width = block->x1 - block->x0, count = width * (block->y1 - block->y0);
+    const size_t channels = aur_image_channel_count(image);
+    block_values values;
+    read_block(replicas, block, channel, values);
+    for (size_t i = 0; i < count; ++i) {
+        const size_t pixel = (block->y0 + i / width) * aur_image_width(image) + block->x0 + i % width;
+        float developed[6];
+        develop_pixel(replicas->count, first, step, (const double(*)[3])values + i, developed);
+        memcpy(aur_image_data(image) + pixel * channels + (channel == 0 ? 0 : channels - most), developed,
+               most * sizeof *developed);
     }
 }
 
@@ -299,16 +338,13 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size
         aur_image_name_channel(*image, c, c < main_channels ? names[c] : taken[c - main_channels], NULL);
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
-    for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel) {
-        float values[6];
-        float *const to = aur_image_data(*image) + pixel * channels;
-        develop_pixel(replicas, first, step, pixel, 0, values);
-        memcpy(to, values, main_channels * sizeof *values);
-        if (channels > main_channels) {
-            develop_pixel(replicas, first, step, pixel, 3, values);
-            memcpy(to + main_channels, values, (channels - main_channels) * sizeof *values);
+    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
+        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
+            const pixel_range block = cell_of(layout, BLOCK, column, row);
+            develop_block(replicas, &block, first, step, 0, main_channels, *image);
+            if (channels > main_channels)
+                develop_block(replicas, &block, first, step, 3, channels - main_channels, *image);
         }
-    }
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_unlock(aur_render_film(replicas->renders[r])->lock);
     return AUR_OK;

@@ -59,8 +59,10 @@ typedef struct aur_weighing {
     const aur_error_weight *weights; /* [pixel_count] */
 } aur_weighing;
 
-/* The values of three channels of a pixel in replica r: the means of its samples; 0 without samples. */
-void aur_replicas_colour(const aur_replicas *replicas, size_t r, size_t pixel, size_t first, double value[3]);
+/* The values of three channels, as aur_film_colours gives them, in each replica: those of replica r begin at
+ * r * stride. */
+void aur_replicas_read(const aur_replicas *replicas, const size_t corners[2], size_t first, size_t stride,
+                       double (*values)[3]);
 /* Converts deviations d[channel][replica] of `count` replicas from `mean` to those of a pixel's differences.
  */
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],

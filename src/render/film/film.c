@@ -286,25 +286,32 @@ static double variance_of(uint32_t count, double mean, double mean_square) {
     return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
 }
 
-static void find_means(const aur_film *film, size_t pixel, size_t first, size_t count, double *means) {
+/* `corners` as for aur_film_colours; values[pixel][channel]. */
+static void find_means(const aur_film *film, const size_t corners[2], size_t first, size_t count,
+                       double *means) {
     if (film->spread != NULL) {
-        aur_spread_values(film, pixel, first, count, means);
+        aur_spread_values(film, corners, first, count, means);
         return;
     }
-    const uint32_t samples = film->counts[pixel];
-    const double *const sums = &film->sums[pixel * film->layout.channel_count + first];
-    for (size_t c = 0; c < count; ++c)
-        means[c] = samples > 0 ? sums[c] / (double)samples : 0.0;
+    const size_t stride = film->layout.x1 - film->layout.x0,
+                 width = corners[1] % stride - corners[0] % stride;
+    for (size_t row = corners[0]; row <= corners[1]; row += stride)
+        for (size_t pixel = row; pixel <= row + width; ++pixel) {
+            const uint32_t samples = film->counts[pixel];
+            const double *const sums = &film->sums[pixel * film->layout.channel_count + first];
+            for (size_t c = 0; c < count; ++c)
+                *means++ = samples > 0 ? sums[c] / (double)samples : 0.0;
+        }
 }
 
 double aur_film_mean(const aur_film *film, size_t pixel, size_t channel) {
     double mean;
-    find_means(film, pixel, channel, 1, &mean);
+    find_means(film, (const size_t[2]){pixel, pixel}, channel, 1, &mean);
     return mean;
 }
 
-void aur_film_colour(const aur_film *film, size_t pixel, size_t first, double mean[3]) {
-    find_means(film, pixel, first, 3, mean);
+void aur_film_colours(const aur_film *film, const size_t corners[2], size_t first, double (*values)[3]) {
+    find_means(film, corners, first, 3, *values);
 }
 
 static double channel_value(const aur_film *film, size_t pixel, size_t channel) {

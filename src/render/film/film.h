@@ -159,9 +159,11 @@ void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted
 void aur_film_write(const aur_film *film, FILE *stream);
 size_t aur_film_file_size(const aur_film *film);
 
-/* A pixel's mean in a channel, or in three; 0 without samples. */
+/* A pixel's mean in a channel; 0 without samples. */
 double aur_film_mean(const aur_film *film, size_t pixel, size_t channel);
-void aur_film_colour(const aur_film *film, size_t pixel, size_t first, double mean[3]);
+/* The same in three channels, from `first` on, of the pixels of a rectangle, row by row. `corners` are its
+ * first and last pixel; it has at most AUR_TILE_SIZE pixels on a side. */
+void aur_film_colours(const aur_film *film, const size_t corners[2], size_t first, double (*values)[3]);
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);

@@ -122,19 +122,29 @@ void aur_spread_set_targets(const aur_film *film, size_t index, const aur_film_t
                             const aur_tile *tile, aur_film_before *before) {
     const aur_film_layout *const layout = &film->layout;
     const aur_spread *const spread = film->spread;
-    const size_t width = layout->x1 - layout->x0, count = tile->stride * (tile->y1 - tile->y0);
+    const size_t width = layout->x1 - layout->x0, stride = tile->stride, rows = tile->y1 - tile->y0;
     uint32_t most[AUR_TILE_SIZE * AUR_TILE_SIZE] = {0};
-    for (size_t turn = 0; turn < 2; ++turn)
-        for (size_t k = 0; k < count; ++k) {
-            const size_t x = tile->x0 + k % tile->stride, y = tile->y0 + k / tile->stride;
-            const size_t at = (clamped(y, layout->y0, layout->y1) - layout->y0) * width +
-                              clamped(x, layout->x0, layout->x1) - layout->x0;
-            const size_t cell = aur_spread_cell_of(spread, x, y);
-            const uint32_t target = targets->pixels != NULL ? targets->pixels[at] : targets->all;
-            most[cell] = target > most[cell] ? target : most[cell];
-            before->targets[k] = most[cell];
-            before->given[k] = spread->given[index * spread->tile_cells + cell];
+    size_t columns[AUR_TILE_SIZE], at[AUR_TILE_SIZE];
+    for (size_t i = 0; i < stride; ++i) {
+        columns[i] = aur_spread_cell_of(spread, tile->x0 + i, 0);
+        at[i] = clamped(tile->x0 + i, layout->x0, layout->x1) - layout->x0;
+    }
+    for (size_t j = 0; j < rows; ++j) {
+        const size_t y = clamped(tile->y0 + j, layout->y0, layout->y1) - layout->y0;
+        uint32_t *const of_row = most + aur_spread_cell_of(spread, 0, tile->y0 + j);
+        for (size_t i = 0; i < stride; ++i) {
+            const uint32_t target =
+                targets->pixels != NULL ? targets->pixels[y * width + at[i]] : targets->all;
+            of_row[columns[i]] = target > of_row[columns[i]] ? target : of_row[columns[i]];
         }
+    }
+    for (size_t j = 0; j < rows; ++j) {
+        const size_t row = aur_spread_cell_of(spread, 0, tile->y0 + j);
+        for (size_t i = 0; i < stride; ++i) {
+            before->targets[j * stride + i] = most[row + columns[i]];
+            before->given[j * stride + i] = spread->given[index * spread->tile_cells + row + columns[i]];
+        }
+    }
 }
 
 aur_result aur_spread_open_tile(const aur_film *film, aur_tile *tile, aur_film_before *before) {
@@ -259,18 +269,87 @@ static double sum_of(const aur_spread *spread, const reaching_cell *at, size_t c
            (double)spread->given[at->cell];
 }
 
-void aur_spread_values(const aur_film *film, size_t pixel, size_t first, size_t count, double *values) {
+/* Values of a pixel while they are summed: of 3 channels, and the weight. */
+enum { TERMS = 4 };
+
+/* Pixels of the image, and what is read of them. */
+typedef struct reading {
+    size_t x0, x1, y0, y1;
+    size_t first, count; /* channels */
+    double (*sums)[TERMS];
+} reading;
+
+/* Adds a row of a cell's means. A division by a power of two, which most numbers of samples are, is exact as
+ * a product, and faster. Inlined with constants, because that is read most. */
+static inline void add_means(size_t width, size_t channels, size_t count, const double *from,
+                             const double *weights, uint32_t samples, double (*sums)[TERMS]) {
+    const double divisor = (double)samples, factor = 1.0 / divisor;
+    if ((samples & (samples - 1)) == 0)
+        for (size_t i = 0; i < width; ++i) {
+            for (size_t c = 0; c < count; ++c)
+                sums[i][c] += from[i * channels + c] * factor;
+            sums[i][TERMS - 1] += weights[i * channels] * factor;
+        }
+    else
+        for (size_t i = 0; i < width; ++i) {
+            for (size_t c = 0; c < count; ++c)
+                sums[i][c] += from[i * channels + c] / divisor;
+            sums[i][TERMS - 1] += weights[i * channels] / divisor;
+        }
+}
+
+/* Adds what the cell at a column and row of the grid contributes. */
+static void add_cell(const aur_film *film, size_t column, size_t row, const reading *to) {
+    enum { PLAIN = 4 };
     const aur_spread *const spread = film->spread;
-    reaching_cell cells[CELLS_MAX];
-    const size_t found = find_cells(film, pixel, cells);
-    double sums[3] = {0.0}, weight = 0.0;
-    for (size_t i = 0; i < found; ++i) {
-        for (size_t c = 0; c < count; ++c)
-            sums[c] += sum_of(spread, &cells[i], first + c);
-        weight += sum_of(spread, &cells[i], spread->channels - 1);
+    const size_t x = column * spread->cell, y = row * spread->cell, reach = spread->reach;
+    const size_t at = aur_film_tile_at(film, x, y) * spread->tile_cells + aur_spread_cell_of(spread, x, y);
+    const size_t left = to->x0 + reach > x ? to->x0 : x - reach;
+    const size_t right = to->x1 < x + spread->cell + reach ? to->x1 : x + spread->cell + reach;
+    const size_t top = to->y0 + reach > y ? to->y0 : y - reach;
+    const size_t bottom = to->y1 < y + spread->cell + reach ? to->y1 : y + spread->cell + reach;
+    const size_t in_cell = (top + reach - y) * spread->side + left + reach - x;
+    const double *from = &spread->sums[at * spread->cell_values + in_cell * spread->channels];
+    double(*sums)[TERMS] = to->sums + (top - to->y0) * (to->x1 - to->x0) + left - to->x0;
+    for (size_t j = top; j < bottom && spread->given[at] > 0; ++j) {
+        const double *const first = from + to->first, *const weights = from + spread->channels - 1;
+        if (spread->channels == PLAIN && to->count == 3)
+            add_means(right - left, PLAIN, 3, first, first + 3, spread->given[at], sums);
+        else if (to->count == 3)
+            add_means(right - left, spread->channels, 3, first, weights, spread->given[at], sums);
+        else
+            add_means(right - left, spread->channels, to->count, first, weights, spread->given[at], sums);
+        from += spread->side * spread->channels;
+        sums += to->x1 - to->x0;
     }
-    for (size_t c = 0; c < count; ++c)
-        values[c] = weight != 0.0 ? sums[c] / weight : 0.0;
+}
+
+void aur_spread_values(const aur_film *film, const size_t corners[2], size_t first, size_t count,
+                       double *values) {
+    double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][TERMS];
+    const aur_film_layout *const layout = &film->layout;
+    const size_t cell = film->spread->cell, reach = film->spread->reach, width = layout->x1 - layout->x0;
+    const reading to = {.x0 = layout->x0 + corners[0] % width,
+                        .x1 = layout->x0 + corners[1] % width + 1,
+                        .y0 = layout->y0 + corners[0] / width,
+                        .y1 = layout->y0 + corners[1] / width + 1,
+                        .first = first,
+                        .count = count,
+                        .sums = sums};
+    const aur_film_area area = aur_film_area_of(layout);
+    const size_t pixels = (to.x1 - to.x0) * (to.y1 - to.y0);
+    const size_t right = to.x1 + reach < area.x1 ? to.x1 + reach : area.x1;
+    const size_t bottom = to.y1 + reach < area.y1 ? to.y1 + reach : area.y1;
+    memset(sums, 0, pixels * sizeof *sums);
+    for (size_t row = (to.y0 > area.y0 + reach ? to.y0 - reach : area.y0) / cell; row * cell < bottom; ++row)
+        for (size_t column = (to.x0 > area.x0 + reach ? to.x0 - reach : area.x0) / cell;
+             column * cell < right; ++column)
+            add_cell(film, column, row, &to);
+    for (size_t i = 0; i < pixels; ++i) {
+        const double weight = sums[i][TERMS - 1];
+        for (size_t c = 0; c < count; ++c)
+            *values++ = weight != 0.0 ? sums[i][c] / weight : 0.0;
+    }
 }
 
 /* A value is the ratio of sums over the cells, s / w. Its variance, to first order, is that of s - (value) w
@@ -281,7 +360,7 @@ bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
     const size_t count = find_cells(film, pixel, cells);
     double values[3], weight = 0.0;
     bool good = count > 0 && spread->moments != NULL;
-    aur_spread_values(film, pixel, 0, 3, values);
+    aur_spread_values(film, (const size_t[2]){pixel, pixel}, 0, 3, values);
     for (size_t i = 0; i < count; ++i) {
         weight += sum_of(spread, &cells[i], spread->channels - 1);
         good = good && spread->steps[cells[i].cell] > 1;

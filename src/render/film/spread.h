@@ -80,9 +80,11 @@ aur_result aur_spread_open_tile(const struct aur_film *film, aur_tile *tile, str
 void aur_spread_take_tile(struct aur_film *film, aur_tile *tile);
 void aur_spread_close_tile(struct aur_film *film, const aur_tile *tile, const struct aur_film_before *before);
 
-/* A pixel's values in `count` channels, 3 at most, and its squared standard error; false if there are too few
- * steps. */
-void aur_spread_values(const struct aur_film *film, size_t pixel, size_t first, size_t count, double *values);
+/* The values in `count` channels, 3 at most, of the pixels of a rectangle with these corners, at most a tile:
+ * values[pixel][channel], row by row. */
+void aur_spread_values(const struct aur_film *film, const size_t corners[2], size_t first, size_t count,
+                       double *values);
+/* A pixel's squared standard error; false if there are too few steps. */
 bool aur_spread_error(const struct aur_film *film, size_t pixel, double squares[3]);
 
 /* Adds another film's cells, of the same layout. */

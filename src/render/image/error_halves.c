@@ -14,7 +14,7 @@ static double square_of(aur_error_measure measure, const aur_error_weight *weigh
     double errors[3], d[3];
     for (size_t c = 0; c < 3; ++c)
         errors[c] = (double)to[c] - start[c];
-    aur_error_apply(measure, weight, start, errors, d);
+    aur_error_apply(measure, weight, start, 1, (const double(*)[3])errors, &d);
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 

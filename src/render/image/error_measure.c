@@ -13,7 +13,7 @@ static const double luminance[3] = {0.2126, 0.7152, 0.0722};
 typedef struct error_scale {
     double mean;     /* of R, G and B */
     double bright;   /* mean luminance */
-    double exposure; /* shows the geometric mean of luminance as a medium grey */
+    double exposure; /* shows the geometric mean of luminance as a medium grey; only for the display */
 } error_scale;
 
 /* One measure: the weights of a pixel from the smoothed values, its differences, and a bound of the variance
@@ -21,8 +21,8 @@ typedef struct error_scale {
 typedef struct measure_row {
     const char *name;
     void (*weigh)(const double value[3], const error_scale *scale, double weight[3]);
-    void (*differ)(const double weight[3], const double from[3], const double errors[3],
-                   double differences[3]);
+    void (*differ)(const double weight[3], const double from[3], size_t count, const double (*errors)[3],
+                   double (*differences)[3]);
     double (*bound)(const double weight[3], const aur_rare_light *light);
 } measure_row;
 
@@ -49,25 +49,30 @@ static void weigh_display(const double value[3], const error_scale *scale, doubl
         weight[c] = scale->exposure;
 }
 
-static void sum_difference(const double weight[3], const double from[3], const double errors[3],
-                           double differences[3]) {
+static void sum_difference(const double weight[3], const double from[3], size_t count,
+                           const double (*errors)[3], double (*differences)[3]) {
     (void)from;
-    differences[0] = weight[0] * errors[0] + weight[1] * errors[1] + weight[2] * errors[2];
-    differences[1] = differences[2] = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        differences[i][0] = weight[0] * errors[i][0] + weight[1] * errors[i][1] + weight[2] * errors[i][2];
+        differences[i][1] = differences[i][2] = 0.0;
+    }
 }
 
-static void three_differences(const double weight[3], const double from[3], const double errors[3],
-                              double differences[3]) {
+static void three_differences(const double weight[3], const double from[3], size_t count,
+                              const double (*errors)[3], double (*differences)[3]) {
     (void)from;
-    for (size_t c = 0; c < 3; ++c)
-        differences[c] = weight[c] * errors[c];
+    for (size_t i = 0; i < count; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            differences[i][c] = weight[c] * errors[i][c];
 }
 
-static void displayed_differences(const double weight[3], const double from[3], const double errors[3],
-                                  double differences[3]) {
-    for (size_t c = 0; c < 3; ++c)
-        differences[c] =
-            aur_srgb_encode(weight[c] * (from[c] + errors[c])) - aur_srgb_encode(weight[c] * from[c]);
+static void displayed_differences(const double weight[3], const double from[3], size_t count,
+                                  const double (*errors)[3], double (*differences)[3]) {
+    for (size_t c = 0; c < 3; ++c) {
+        const double start = aur_srgb_encode(weight[c] * from[c]);
+        for (size_t i = 0; i < count; ++i)
+            differences[i][c] = aur_srgb_encode(weight[c] * (from[c] + errors[i][c])) - start;
+    }
 }
 
 /* The sum of weighted differences, squared, is at most the sum of squared errors times that of squared
@@ -119,7 +124,8 @@ const char *aur_error_measure_name(aur_error_measure measure) {
 }
 
 /* Black pixels, whose logarithm is undefined, count as a thousandth of the mean. */
-static error_scale scale_of(size_t count, const double (*values)[3], const double (*smooth)[3]) {
+static error_scale scale_of(aur_error_measure measure, size_t count, const double (*values)[3],
+                            const double (*smooth)[3]) {
     error_scale scale = {.mean = 0.0};
     const double grey = 0.18, least = 1e-3;
     double logarithms = 0.0;
@@ -127,15 +133,17 @@ static error_scale scale_of(size_t count, const double (*values)[3], const doubl
         scale.mean += (values[i][0] + values[i][1] + values[i][2]) / (3.0 * (double)count);
         scale.bright += luminance_of(values[i]) / (double)count;
     }
-    for (size_t i = 0; i < count && scale.bright > 0.0; ++i)
+    if (measure != AUR_ERROR_MEASURE_DISPLAY || !(scale.bright > 0.0))
+        return scale;
+    for (size_t i = 0; i < count; ++i)
         logarithms += log(fmax(luminance_of(smooth[i]), least * scale.bright));
-    scale.exposure = scale.bright > 0.0 ? grey / exp(logarithms / (double)count) : 0.0;
+    scale.exposure = grey / exp(logarithms / (double)count);
     return scale;
 }
 
 void aur_error_weigh(aur_error_measure measure, size_t count, const double (*values)[3],
                      const double (*smooth)[3], aur_error_weight *weights) {
-    const error_scale scale = scale_of(count, values, smooth);
+    const error_scale scale = scale_of(measure, count, values, smooth);
     for (size_t i = 0; i < count; ++i)
         if (scale.mean > 0.0 && scale.bright > 0.0)
             measures[measure].weigh(smooth[i], &scale, weights[i].channel);
@@ -159,8 +167,8 @@ void aur_error_smooth(size_t width, size_t height, const double (*values)[3], do
 }
 
 void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
-                     const double errors[3], double differences[3]) {
-    measures[measure].differ(weight->channel, from, errors, differences);
+                     size_t count, const double (*errors)[3], double (*differences)[3]) {
+    measures[measure].differ(weight->channel, from, count, errors, differences);
 }
 
 double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight,
@@ -198,7 +206,7 @@ aur_result aur_image_error(const aur_image *reference, const aur_image *image, a
                 errors[c] = other[i][c] - values[i][c];
                 change = fmax(change, fabs(errors[c]));
             }
-            aur_error_apply(measure, &weights[i], values[i], errors, d);
+            aur_error_apply(measure, &weights[i], values[i], 1, (const double(*)[3])errors, &d);
             sum += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         }
         const bool black = !(weights[0].channel[0] > 0.0);

@@ -21,9 +21,9 @@ void aur_error_weigh(aur_error_measure measure, size_t count, const double (*val
  * mean may be near zero. */
 void aur_error_smooth(size_t width, size_t height, const double (*values)[3], double (*smooth)[3]);
 
-/* The differences in a pixel whose values `from` change by `errors`. */
+/* The differences in a pixel whose values `from` change by `errors`, for each of `count` such changes. */
 void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
-                     const double errors[3], double differences[3]);
+                     size_t count, const double (*errors)[3], double (*differences)[3]);
 /* Light that a sample of a pixel hits with a small probability, `share`. */
 typedef struct aur_rare_light {
     double variance; /* of the mean of the samples in R, G and B together */

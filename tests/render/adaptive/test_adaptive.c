@@ -96,6 +96,31 @@ static void test_error(void **state) {
     aur_adaptive_destroy(b);
 }
 
+/* One round has the same samples whichever measure is asked for, and the same errors by all of them: up to
+ * the rounding of what only the one asked for pools. */
+static void test_all_measures(void **state) {
+    const fixture *const f = *state;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.rounds = 1;
+    aur_render_options options = small(1);
+    options.integrator = "path";
+    aur_adaptive_report reports[AUR_ERROR_MEASURE_COUNT];
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        target.measure = (aur_error_measure)m;
+        aur_adaptive *const a = adaptive(f, &options, &target);
+        reports[m] = report_of(a);
+        aur_adaptive_destroy(a);
+    }
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        for (size_t k = 0; k < AUR_ERROR_MEASURE_COUNT; ++k) {
+            const aur_error_figures asked = reports[m].errors[m], other = reports[k].errors[m];
+            assert_true(asked.error == other.error && asked.error > 0.0);
+            assert_near(other.low, asked.low, 1e-9 * asked.error);
+            assert_near(other.high, asked.high, 1e-9 * asked.error);
+        }
+}
+
 static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
     aur_image *const x = image_of(a), *const y = image_of(b);
     const size_t pixels = aur_image_width(x) * aur_image_height(x);
@@ -140,6 +165,12 @@ static void test_choice(void **state) {
      * bias may also be what the noise leaves. */
     assert_true(report.bias_room == 0.5 * target.error);
     assert_true(report.bias_high > 0.0 && report.error_high <= target.error);
+    /* By every measure the noise is the same, and what bounds the bias is added. */
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        const double high = report_of(b).errors[m].high, noise = high * high - again.bias * again.bias;
+        assert_true(report.errors[m].error >= report_of(b).errors[m].error);
+        assert_true(report.errors[m].high * report.errors[m].high > noise * (1.0 + 1e-9));
+    }
     size_t taken = 0;
     for (size_t i = 0; i < report.race_count; ++i) {
         aur_adaptive_candidate one = {.size = sizeof one};
@@ -372,6 +403,7 @@ static void test_bad_wishes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_all_measures),
                                        cmocka_unit_test(test_choice),
                                        cmocka_unit_test(test_progress),
                                        cmocka_unit_test(test_rounds_and_rays),

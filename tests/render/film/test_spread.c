@@ -266,6 +266,39 @@ static void nothing_changes_a_bit(void **state) {
         }
 }
 
+/* A rectangle has the values of its pixels one by one, which the first test computes from all samples: in a
+ * crop, for cells of any size and any numbers of samples. */
+static void rectangles_have_the_values_of_their_pixels(void **state) {
+    const fixture *const f = *state;
+    enum { X0 = 5, X1 = 30, Y0 = 3, Y1 = 20, COLUMNS = X1 - X0, ALL = COLUMNS * (Y1 - Y0) };
+    static const size_t corners[][2] = {
+        {0, 0}, {0, 15 * COLUMNS + 15}, {2 * COLUMNS + 20, 16 * COLUMNS + 24}, {ALL - 1, ALL - 1}};
+    uint32_t targets[ALL];
+    for (size_t k = 0; k < 2 * FILTER_COUNT; ++k) {
+        aur_render_options options = options_of("aov:aovs=(d:depth,n:position)", filters[k / 2]);
+        options.samples_per_pixel = k % 2 == 0 ? SAMPLES : AUR_SAMPLES_PER_PIXEL_MAX; /* in cells of 16, 4 */
+        options.crop_x0 = X0, options.crop_x1 = X1, options.crop_y0 = Y0, options.crop_y1 = Y1;
+        options.sampler = "sobol";
+        aur_render *const render = start(f, &options);
+        for (size_t i = 0; i < ALL; ++i)
+            targets[i] = (uint32_t)(i % COLUMNS / 4 % SAMPLES + (k % 2 == 0));
+        assert_int_equal(aur_render_step_pixels(render, ALL, targets, NULL), AUR_OK);
+        const aur_film *const film = aur_render_film(render);
+        for (size_t r = 0; r < sizeof corners / sizeof corners[0]; ++r)
+            for (size_t first = 0; first <= 4; first += 4) {
+                static double read[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
+                const size_t width = corners[r][1] % COLUMNS - corners[r][0] % COLUMNS + 1;
+                aur_film_colours(film, corners[r], first, read);
+                for (size_t i = 0; corners[r][0] + i / width * COLUMNS + i % width <= corners[r][1]; ++i)
+                    for (size_t c = 0; c < 3; ++c)
+                        assert_true(
+                            read[i][c] ==
+                            aur_film_mean(film, corners[r][0] + i / width * COLUMNS + i % width, first + c));
+            }
+        aur_render_destroy(render);
+    }
+}
+
 /* Cells are weighted by their means. If some pixels have many more samples than others, the image of a simple
  * function of the film is still the filtered one; with equal weights of all samples it would not be. The
  * scene is a camera that sees only depth: its only noise is the samples' positions. */
@@ -378,6 +411,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
                                        cmocka_unit_test(errors_are_those_of_the_steps),
                                        cmocka_unit_test(nothing_changes_a_bit),
+                                       cmocka_unit_test(rectangles_have_the_values_of_their_pixels),
                                        cmocka_unit_test(cells_have_equal_weights_for_any_number_of_samples),
                                        cmocka_unit_test(gathers_count_where_they_lie),
                                        cmocka_unit_test(small_images),
