@@ -6,8 +6,6 @@
 #include "render/scene/elements.h"
 
 typedef struct aur_photon {
-    aur_vector position;
-    aur_vector normal;    /* geometric, on the side that the photon came from */
     aur_vector direction; /* unit, towards where it came from */
     aur_vector power;     /* watts, RGB */
     uint32_t element;

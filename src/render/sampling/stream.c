@@ -171,6 +171,21 @@ void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t 
     }
 }
 
+void aur_stream_indices(const aur_sampler *sampler, uint64_t pixel, size_t count, const uint32_t *indices,
+                        uint32_t pair, float *u, float *v) {
+    if (sampler->kernels != NULL) {
+        sampler->kernels->indices(aur_hash2(pixel, pair), count, indices, u, v);
+        return;
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const aur_stream stream = {sampler, pixel, indices[k]};
+        float both[2];
+        aur_stream_pair(&stream, pair, both);
+        u[k] = both[0];
+        v[k] = both[1];
+    }
+}
+
 float aur_stream_single(const aur_stream *stream, uint32_t pair) {
     float u[2];
     aur_stream_pair(stream, pair, u);

@@ -1,6 +1,7 @@
 #include "render/scene/scene_text.h"
 
 #include "render/photons/irradiance.h"
+#include "render/photons/particles.h"
 
 /* The closed furnace of tests/render/driver/furnace.xml: walls of [-1,1]^3 that emit 0.5 and reflect half, so
  * that the radiance is 1 and the irradiance pi everywhere. */
@@ -22,6 +23,22 @@ static aur_irradiance_map *make_map(const aur_scene *scene, size_t photons, size
     return map;
 }
 
+/* Where a photon is, and the normal on the side that it came from. */
+static aur_vector place(const aur_scene *scene, const aur_elements *elements, const aur_photon *photon,
+                        aur_vector *normal) {
+    const aur_placement *at = elements->placements;
+    while (photon->element >= at->first + at->count)
+        ++at;
+    aur_vector corner[3];
+    aur_shape_corners(scene, at->shape, photon->element - at->first, corner);
+    *normal = aur_vector_scale(aur_triangle_normal(corner), photon->behind ? -1.0f : 1.0f);
+    aur_vector position = corner[0];
+    for (size_t i = 0; i < 2; ++i)
+        position = aur_vector_add_scaled(position, photon->coordinates[i],
+                                         aur_vector_subtract(corner[i + 1], corner[0]));
+    return position;
+}
+
 /* Particles bring pi * 0.5 * 24 watts from the walls' 24 square units, and every bounce half of what came:
  * in all 12 pi / (1 - 0.5) arrive. Roulette makes each path's length geometric with variance 2, so over n
  * paths the sum scatters by sqrt(2 / n) / 2 of itself; 5 such are allowed. */
@@ -41,7 +58,9 @@ static void photons_bring_all_the_power(void **state) {
         power[1] += (double)photon->power.y;
         power[2] += (double)photon->power.z;
         /* A photon comes from the side that its normal shows. */
-        assert_true(aur_vector_dot(photon->normal, photon->direction) > 0.0f);
+        aur_vector normal;
+        place(scene, &elements, photon, &normal);
+        assert_true(aur_vector_dot(normal, photon->direction) > 0.0f);
         assert_near(aur_vector_length(photon->direction), 1.0, 1e-5);
     }
     const double spread = sqrt(2.0 / (double)map.paths) / 2.0;
@@ -49,6 +68,31 @@ static void photons_bring_all_the_power(void **state) {
         assert_relative(power[c], 24.0 * AUR_PI, 5.0 * spread);
     assert_true(map.count >= 40000);
     aur_photon_map_release(&map);
+    aur_elements_release(&elements);
+    aur_scene_destroy(scene);
+}
+
+/* Many particles at once, of several sets of points, have the photons that each has, in their order. */
+static void particles_are_the_single_ones(void **state) {
+    (void)state;
+    enum { PATHS = 200, FIRST = 7 };
+    aur_scene *const scene = load_furnace();
+    aur_elements elements;
+    assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);
+    aur_sampler *sampler = NULL;
+    assert_int_equal(aur_sampler_create("sobol", 1, NULL, &sampler, NULL), AUR_OK);
+    const aur_photon_options options = {.max_edges = SIZE_MAX, .seed = 7};
+    const aur_particle_source source = {scene, &elements, &options, sampler, 90};
+    aur_photon_list together = {0}, each = {0};
+    assert_int_equal(aur_particles_trace(&source, FIRST, PATHS, &together), AUR_OK);
+    for (uint64_t i = 0; i < PATHS; ++i)
+        assert_int_equal(aur_particles_trace(&source, FIRST + i, 1, &each), AUR_OK);
+    assert_true(together.count > PATHS);
+    assert_int_equal(together.count, each.count);
+    assert_memory_equal(together.photons, each.photons, each.count * sizeof *each.photons);
+    free(together.photons);
+    free(each.photons);
+    aur_sampler_destroy(sampler);
     aur_elements_release(&elements);
     aur_scene_destroy(scene);
 }
@@ -136,13 +180,15 @@ static void texels_hold_all_the_power(void **state) {
 }
 
 /* A direct density estimate: the photons within a radius, over the part of the disc that the wall has. */
-static double estimate_directly(const aur_photon_map *photons, aur_vector position, aur_vector normal,
+static double estimate_directly(const aur_scene *scene, const aur_elements *elements,
+                                const aur_photon_map *photons, aur_vector position, aur_vector normal,
                                 float radius) {
     double power = 0.0;
     for (size_t i = 0; i < photons->count; ++i) {
         const aur_photon *const photon = &photons->photons[i];
-        const aur_vector offset = aur_vector_subtract(photon->position, position);
-        if (aur_vector_dot(photon->normal, normal) > 0.99f && aur_vector_length(offset) < radius)
+        aur_vector side;
+        const aur_vector offset = aur_vector_subtract(place(scene, elements, photon, &side), position);
+        if (aur_vector_dot(side, normal) > 0.99f && aur_vector_length(offset) < radius)
             power += (double)photon->power.y;
     }
     return power / (AUR_PI * (double)radius * (double)radius);
@@ -170,7 +216,8 @@ static void lookups_agree_with_density_estimates(void **state) {
         aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = {0.0f, 0.0f, 1.0f};
         looked_up += (double)aur_irradiance_view(map, scene, &hit, &surface, view).radiance.y / 64.0;
-        estimated += 0.5 / AUR_PI * estimate_directly(&photons, target, view, 0.1f) / 64.0;
+        estimated += 0.5 / AUR_PI *
+                     estimate_directly(scene, &map->texels.elements, &photons, target, view, 0.1f) / 64.0;
     }
     assert_relative(looked_up, 0.5, 5.0 * 0.18 / 8.0);
     assert_relative(looked_up, estimated, 5.0 * 0.20 / 8.0);
@@ -257,15 +304,11 @@ static void photons_come_from_any_set(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(photons_bring_all_the_power),
-        cmocka_unit_test(endless_paths_are_reported),
-        cmocka_unit_test(empty_maps_end_early),
-        cmocka_unit_test(texels_hold_all_the_power),
-        cmocka_unit_test(lookups_agree_with_density_estimates),
-        cmocka_unit_test(unlit_sides_stay_dark),
-        cmocka_unit_test(triangle_texels_cover_it_evenly),
-        cmocka_unit_test(photons_come_from_any_set),
-        cmocka_unit_test(does_not_depend_on_threads),
+        cmocka_unit_test(photons_bring_all_the_power), cmocka_unit_test(particles_are_the_single_ones),
+        cmocka_unit_test(endless_paths_are_reported),  cmocka_unit_test(empty_maps_end_early),
+        cmocka_unit_test(texels_hold_all_the_power),   cmocka_unit_test(lookups_agree_with_density_estimates),
+        cmocka_unit_test(unlit_sides_stay_dark),       cmocka_unit_test(triangle_texels_cover_it_evenly),
+        cmocka_unit_test(photons_come_from_any_set),   cmocka_unit_test(does_not_depend_on_threads),
     };
     return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
 }
