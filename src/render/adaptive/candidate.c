@@ -256,8 +256,8 @@ static size_t cell_of(const aur_candidate *candidate) {
 /* Combines the last round's variances with the prediction from the rounds before. A variance from a few
  * replicas has few degrees of freedom: they may agree by chance in this round but did not in earlier ones.
  * The bound is the end of the interval if the earlier rounds showed more error, or emitters may have been
- * missed. Under `display` what a pixel needs for an emitter is averaged over its cell: otherwise the others'
- * samples exceed their targets, and their variances, divided by targets, come out too high. */
+ * missed. What a pixel needs for an emitter is averaged over its cell: otherwise the others' samples exceed
+ * their targets, and their variances, divided by targets, come out too high. */
 static void pool_variances(aur_candidate *candidate) {
     double measured = 0.0, pooled = 0.0, visible = 0.0;
     for (size_t i = 0; i < candidate->value_count; ++i) {
@@ -269,7 +269,7 @@ static void pool_variances(aur_candidate *candidate) {
         visible += emitters;
     }
     const size_t cell = cell_of(candidate);
-    if (cell > 0 && candidate->error_measure == AUR_ERROR_MEASURE_DISPLAY)
+    if (cell > 0)
         aur_replicas_average(&candidate->replicas, cell, candidate->variances);
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))

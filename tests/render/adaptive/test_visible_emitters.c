@@ -128,6 +128,7 @@ static void knows_its_integrator(void **state) {
  * of samples by which variances are divided are those of the film. */
 static void knows_the_samples_of_cells(void **state) {
     (void)state;
+    enum { REPLICAS = 4, ROUNDS = 4 };
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
@@ -136,22 +137,22 @@ static void knows_the_samples_of_cells(void **state) {
     options.width = options.height = SIDE;
     options.sampler = "sobol";
     options.filter = "gaussian";
-    enum { REPLICAS = 4 };
-    aur_candidate candidate = {.integrator = strdup("path")};
-    assert_int_equal(
-        aur_candidate_create(renderer, &options, REPLICAS, AUR_ERROR_MEASURE_DISPLAY, &candidate, NULL),
-        AUR_OK);
-    atomic_bool cancelled = false;
-    for (size_t round = 0; round < 4; ++round) {
-        assert_true(aur_candidate_plan(&candidate, 0.5));
-        assert_int_equal(aur_candidate_render(&candidate, 0.95, &cancelled, NULL), AUR_OK);
-        for (size_t i = 0; i < candidate.value_count; ++i) {
-            const size_t pixels = candidate.replicas.pixel_count;
-            const aur_film *const film = aur_render_film(candidate.replicas.renders[i / pixels]);
-            assert_int_equal(candidate.targets[i], film->counts[i % pixels]);
+    for (size_t measure = 0; measure < AUR_ERROR_MEASURE_COUNT; ++measure) {
+        aur_candidate candidate = {.integrator = strdup("path")};
+        assert_int_equal(aur_candidate_create(renderer, &options, REPLICAS, (aur_error_measure)measure,
+                                              &candidate, NULL),
+                         AUR_OK);
+        const size_t pixels = candidate.replicas.pixel_count;
+        atomic_bool cancelled = false;
+        for (size_t round = 0; round < ROUNDS; ++round) {
+            assert_true(aur_candidate_plan(&candidate, 0.5));
+            assert_int_equal(aur_candidate_render(&candidate, 0.95, &cancelled, NULL), AUR_OK);
+            for (size_t i = 0; i < candidate.value_count; ++i)
+                assert_int_equal(candidate.targets[i],
+                                 aur_render_film(candidate.replicas.renders[i / pixels])->counts[i % pixels]);
         }
+        aur_candidate_release(&candidate);
     }
-    aur_candidate_release(&candidate);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
 }
