@@ -79,14 +79,15 @@ typedef struct aur_adaptive_report {
     uint64_t rounds;
     double samples_per_pixel; /* mean over the image, of all replicas and finished rounds: the error's */
     size_t replicas;
-    aur_render_statistics
-        statistics; /* of all replicas together, and of what was tried; its size is set here */
+    /* Of all replicas together, and of what was tried; the time for statistics and plans is in the render
+     * seconds. Its size is set here. */
+    aur_render_statistics statistics;
     /* Rays of rejected candidates and of their preparation, counted even if its result came from the renderer
      * or the file cache. */
     uint64_t candidate_rays;
     double bias_high; /* of the error: an upper bound of the systematic error; 0 for an unbiased integrator */
     /* The error by every measure; each includes the bias only as far as `error` does. Those by other measures
-     * than the target's are computed when aur_adaptive_run ends, after CANCELLED from all samples so far. */
+     * than the target's are computed when aur_adaptive_run ends. */
     aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
     double bias_room;  /* the part of the target error reserved for bias: it gives the same image with a named
                           integrator */

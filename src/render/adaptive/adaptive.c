@@ -88,6 +88,30 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
                                     (double)spent.all.rays, rays_left(adaptive, &spent, part));
 }
 
+/* --- time */
+
+/* Work that began at a time, when so much had been spent. */
+typedef struct stretch {
+    aur_stopwatch start;
+    aur_render_statistics spent;
+} stretch;
+
+static stretch begin_lap(const aur_adaptive *adaptive) {
+    return (stretch){aur_stopwatch_start(), aur_adaptive_spent(adaptive).all};
+}
+
+/* Adds what no render has counted: the time of statistics, plans and the race's decisions. Begins the next.
+ */
+static void end_lap(aur_adaptive *adaptive, stretch *lap) {
+    const aur_render_statistics now = aur_adaptive_spent(adaptive).all, *const before = &lap->spent;
+    double wall = 0.0, cpu = 0.0;
+    aur_stopwatch_add(&lap->start, &wall, &cpu);
+    wall -= now.prepare_seconds - before->prepare_seconds + now.render_seconds - before->render_seconds;
+    adaptive->others.all.render_seconds += fmax(wall, 0.0);
+    adaptive->others.all.cpu_seconds += fmax(cpu - (now.cpu_seconds - before->cpu_seconds), 0.0);
+    *lap = begin_lap(adaptive);
+}
+
 /* --- making */
 
 static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
@@ -181,6 +205,7 @@ aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options 
     atomic_init(&adaptive->cancelled, false);
     adaptive->target.size = sizeof(aur_adaptive_options);
     aur_adaptive_options_init(&adaptive->target, NULL);
+    stretch lap = begin_lap(adaptive);
     aur_result result =
         aur_options_read(options, sizeof adaptive->target, &adaptive->target, "aur_adaptive_options", error);
     if (result == AUR_OK)
@@ -191,6 +216,7 @@ aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options 
         aur_adaptive_destroy(adaptive);
         return result;
     }
+    end_lap(adaptive, &lap);
     *out = adaptive;
     return AUR_OK;
 }
@@ -243,7 +269,7 @@ static bool is_met(const aur_adaptive *adaptive) {
 }
 
 /* Renders rounds until the noise target is met, or another candidate replaces this one. */
-static aur_result render_rounds(aur_adaptive *adaptive, bool *again, aur_error *error) {
+static aur_result render_rounds(aur_adaptive *adaptive, stretch *lap, bool *again, aur_error *error) {
     aur_candidate *const candidate = &adaptive->candidate;
     aur_result result = AUR_OK;
     *again = false;
@@ -258,14 +284,17 @@ static aur_result render_rounds(aur_adaptive *adaptive, bool *again, aur_error *
         result = aur_candidate_render(candidate, adaptive->target.confidence, &adaptive->cancelled, error);
         if (result == AUR_OK)
             result = aur_adaptive_check_bias(adaptive, false, again, error);
+        end_lap(adaptive, lap);
     }
     return result;
 }
 
 aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
+    stretch lap = begin_lap(adaptive);
     aur_result result = adaptive->open ? aur_adaptive_race(adaptive, error) : AUR_OK;
+    end_lap(adaptive, &lap);
     for (bool again = true; result == AUR_OK && again;) {
-        result = render_rounds(adaptive, &again, error);
+        result = render_rounds(adaptive, &lap, &again, error);
         if (result == AUR_OK && !again)
             result = aur_adaptive_check_bias(adaptive, true, &again, error);
     }
@@ -273,6 +302,7 @@ aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
         aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
         aur_adaptive_bound_others(adaptive);
     }
+    end_lap(adaptive, &lap);
     atomic_store(&adaptive->cancelled, false);
     return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
                                          : result;

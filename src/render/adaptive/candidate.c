@@ -37,12 +37,14 @@ static aur_result allocate(aur_candidate *candidate, aur_error *error) {
     candidate->pixels = calloc(pixels, sizeof *candidate->pixels);
     candidate->spreads = calloc(pixels, sizeof *candidate->spreads);
     candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
+    candidate->light = calloc(values, sizeof *candidate->light);
     candidate->values = calloc(2 * pixels, sizeof *candidate->values);
     candidate->weights = calloc(pixels, sizeof *candidate->weights);
-    const bool allocated =
-        candidate->values != NULL && candidate->weights != NULL && candidate->targets != NULL &&
-        candidate->earlier != NULL && candidate->variances != NULL && candidate->measured != NULL &&
-        candidate->pixels != NULL && candidate->spreads != NULL && candidate->scratch != NULL;
+    const bool allocated = candidate->light != NULL && candidate->values != NULL &&
+                           candidate->weights != NULL && candidate->targets != NULL &&
+                           candidate->earlier != NULL && candidate->variances != NULL &&
+                           candidate->measured != NULL && candidate->pixels != NULL &&
+                           candidate->spreads != NULL && candidate->scratch != NULL;
     return allocated ? AUR_OK : aur_fail_memory(error);
 }
 
@@ -87,6 +89,7 @@ void aur_candidate_release(aur_candidate *candidate) {
     free(candidate->pixels);
     free(candidate->spreads);
     free(candidate->scratch);
+    free(candidate->light);
     free(candidate->values);
     free(candidate->weights);
     aur_visible_emitters_release(&candidate->visible);
@@ -297,7 +300,7 @@ static aur_error_interval interval_of(const aur_candidate *candidate, const aur_
 
 void aur_candidate_measure(aur_candidate *candidate) {
     const aur_film_layout *const layout = &aur_render_film(candidate->replicas.renders[0])->layout;
-    aur_replicas_mean(&candidate->replicas, candidate->values);
+    aur_replicas_mean(&candidate->replicas, candidate->light, candidate->values);
     aur_error_smooth(layout->x1 - layout->x0, layout->y1 - layout->y0, (const double(*)[3])candidate->values,
                      candidate->values + candidate->replicas.pixel_count);
     aur_candidate_weigh(candidate, candidate->error_measure);
@@ -308,8 +311,8 @@ static void measure(aur_candidate *candidate, double confidence) {
     const aur_error_measure m = candidate->error_measure;
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_measure(candidate);
-    aur_replicas_measure(&candidate->replicas, (aur_weighing){m, candidate->weights}, &candidate->measure,
-                         &pixels);
+    aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
+                         (aur_weighing){m, candidate->weights}, &candidate->measure, &pixels);
     pool_pixels(candidate);
     candidate->intervals[m] = interval_of(candidate, &candidate->measure, confidence);
 }
@@ -319,8 +322,8 @@ void aur_candidate_measure_others(aur_candidate *candidate, double confidence) {
         const size_t m = (candidate->error_measure + k) % AUR_ERROR_MEASURE_COUNT;
         aur_replica_measure other;
         aur_candidate_weigh(candidate, (aur_error_measure)m);
-        aur_replicas_measure(&candidate->replicas, (aur_weighing){(aur_error_measure)m, candidate->weights},
-                             &other, NULL);
+        aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
+                             (aur_weighing){(aur_error_measure)m, candidate->weights}, &other, NULL);
         candidate->intervals[m] = interval_of(candidate, &other, confidence);
     }
     aur_candidate_weigh(candidate, candidate->error_measure);

@@ -21,6 +21,7 @@ typedef struct aur_candidate {
     double *spreads;              /* [pixel_count] of the last round alone */
     double *scratch;              /* [2 x pixel_count] */
     aur_visible_emitters visible; /* where the integrator shows them */
+    double (*light)[3];           /* [value_count] R, G, B of the replicas after the last round */
     double (*values)[3];          /* [2 x pixel_count] R, G, B of the mean, and these smoothed */
     aur_error_weight *weights;    /* [pixel_count] of the target's measure */
     aur_error_measure error_measure;

@@ -117,6 +117,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     adaptive->row = row;
     adaptive->photons = photons;
     memset(adaptive->bias, 0, sizeof adaptive->bias);
+    adaptive->shared_rounds = 0;
     if (text == NULL)
         return aur_fail_memory(error);
     adaptive->open = true; /* nothing is saved while replicas and their maps are created */
@@ -169,17 +170,24 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
 
 /* --- bias */
 
-/* By the measure of the candidate's weights; irradiance shared by neighbours adds a separate bias. */
+/* By the measure of the candidate's weights. Irradiance shared by neighbours adds a separate bias, which
+ * changes only with rounds: the one by the target's measure is computed once in each. */
 static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
     const aur_candidate *const candidate = &adaptive->candidate;
     const double confidence = adaptive->target.confidence;
     const aur_weighing weighing = {measure, candidate->weights};
     const double(*const values)[3] = (const double(*)[3])candidate->values;
-    aur_bias bias = aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
-    if (aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS)
-        bias = aur_bias_of_both(
-            bias, aur_replicas_bias(&candidate->replicas, COLOURS, weighing, values, confidence));
-    adaptive->bias[measure] = bias;
+    const bool shares = aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS;
+    const bool known = measure == adaptive->target.measure && adaptive->shared_rounds == candidate->rounds;
+    const aur_bias bias = aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
+    const aur_bias shared =
+        shares && !known ? aur_replicas_bias(&candidate->replicas, COLOURS, weighing, values, confidence)
+                         : adaptive->shared;
+    adaptive->bias[measure] = shares ? aur_bias_of_both(bias, shared) : bias;
+    if (measure == adaptive->target.measure) {
+        adaptive->shared = shared;
+        adaptive->shared_rounds = candidate->rounds;
+    }
 }
 
 void aur_adaptive_bound_others(aur_adaptive *adaptive) {

@@ -144,19 +144,23 @@ static void read_block(const aur_replicas *replicas, const pixel_range *block, s
     aur_replicas_read(replicas, corners, first, BLOCK_PIXELS, values);
 }
 
-void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
+void aur_replicas_mean(const aur_replicas *replicas, double (*light)[3], double (*values)[3]) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0;
     block_values block;
     double d[3][AUR_REPLICAS_MAX];
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
             const pixel_range at = cell_of(layout, BLOCK, column, row);
-            const size_t width = at.x1 - at.x0, count = width * (at.y1 - at.y0);
             read_block(replicas, &at, 0, block);
-            for (size_t i = 0; i < count; ++i)
-                find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])block + i,
-                                values[(at.y0 + i / width) * (layout->x1 - layout->x0) + at.x0 + i % width],
-                                d);
+            for (size_t y = at.y0, i = 0; y < at.y1; ++y, i += at.x1 - at.x0) {
+                for (size_t x = 0; x < at.x1 - at.x0; ++x)
+                    find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])block + i + x,
+                                    values[y * width + at.x0 + x], d);
+                for (size_t r = 0; r < replicas->count; ++r)
+                    memcpy(light[r * replicas->pixel_count + y * width + at.x0], block[r * BLOCK_PIXELS + i],
+                           (at.x1 - at.x0) * sizeof *light);
+            }
         }
 }
 
@@ -189,17 +193,15 @@ static void find_gram(size_t count, double d[3][AUR_REPLICAS_MAX], aur_gram *gra
 }
 
 /* Adds a block's pixels to the measure, and to its variances and spreads of pixels. */
-static void measure_block(const aur_replicas *replicas, aur_weighing weighing, pixel_range block,
-                          aur_replica_measure *measure, const aur_pixel_measure *pixels) {
+static void measure_block(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
+                          pixel_range block, aur_replica_measure *measure, const aur_pixel_measure *pixels) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count}, of_pixel;
-    block_values values;
-    read_block(replicas, &block, 0, values);
-    for (size_t y = block.y0, i = 0; y < block.y1; ++y)
-        for (size_t x = block.x0; x < block.x1; ++x, ++i) {
+    for (size_t y = block.y0; y < block.y1; ++y)
+        for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             double d[3][AUR_REPLICAS_MAX], means[3];
-            find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])values + i, means, d);
+            find_deviations(replicas->count, replicas->pixel_count, light + pixel, means, d);
             for (size_t channel = 0; channel < 3; ++channel)
                 measure->mean += means[channel];
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
@@ -216,8 +218,8 @@ static void measure_block(const aur_replicas *replicas, aur_weighing weighing, p
     aur_deviations_add(&measure->deviations, &gram);
 }
 
-void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, aur_replica_measure *measure,
-                          const aur_pixel_measure *pixels) {
+void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
+                          aur_replica_measure *measure, const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){
@@ -225,7 +227,7 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
                        .linear = weighing.measure != AUR_ERROR_MEASURE_DISPLAY}};
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column)
-            measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row), measure, pixels);
+            measure_block(replicas, light, weighing, cell_of(layout, BLOCK, column, row), measure, pixels);
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 

@@ -50,8 +50,8 @@ typedef struct aur_pixel_measure {
     double *spreads;   /* [pixel_count] tr C^2 of a replica's value */
 } aur_pixel_measure;
 
-/* The mean of the replicas: R, G, B of each pixel. */
-void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]);
+/* R, G, B of each replica's pixels, light[count * pixel_count], and their means over the replicas. */
+void aur_replicas_mean(const aur_replicas *replicas, double (*light)[3], double (*values)[3]);
 
 /* How the errors of pixels count: unchanged where weights are NULL. */
 typedef struct aur_weighing {
@@ -68,12 +68,12 @@ void aur_replicas_read(const aur_replicas *replicas, const size_t corners[2], si
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]);
 
-/* All results are in the units of the weighing, except for the mean. `pixels` may be NULL. Its `variances`
- * get, for each replica and pixel, the sum over the differences of the variance of one sample, from the other
- * replicas alone. If a replica allocated samples by its own values, it would starve pixels where these agree
- * by chance, and underestimate its error. */
-void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, aur_replica_measure *measure,
-                          const aur_pixel_measure *pixels);
+/* From the replicas' `light`. All results are in the units of the weighing, except for the mean. `pixels` may
+ * be NULL. Its `variances` get, for each replica and pixel, the sum over the differences of the variance of
+ * one sample, from the other replicas alone. If a replica allocated samples by its own values, it would
+ * starve pixels where these agree by chance, and underestimate its error. */
+void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
+                          aur_replica_measure *measure, const aur_pixel_measure *pixels);
 
 /* Variances of single pixels are too uncertain for allocating samples: each becomes a mean over the pixels
  * around it. `scratch` has space for 2 x pixel_count values. */

@@ -190,13 +190,12 @@ static aur_result prepare(aur_render *render, aur_error *error) {
                : AUR_OK;
 }
 
-/* Adds the times of a job of several processes: rank 0's wall clock, and the processors' sum. */
-static void add_seconds(aur_render *render, const aur_stopwatch *start, double *wall) {
-    double seconds = 0.0, cpu = 0.0;
-    aur_stopwatch_add(start, &seconds, &cpu);
-    aur_ranks_share_seconds(&seconds, &cpu);
+void aur_stopwatch_add(const aur_stopwatch *start, double *wall, double *cpu) {
+    double seconds = aur_clock_seconds(CLOCK_MONOTONIC) - start->wall;
+    double of_processors = aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
+    aur_ranks_share_seconds(&seconds, &of_processors);
     *wall += seconds;
-    render->statistics.cpu_seconds += cpu;
+    *cpu += of_processors;
 }
 
 aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options, aur_render **out,
@@ -216,7 +215,7 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     if (result == AUR_OK)
         result = prepare(render, error);
     render->statistics.rays = aur_rays_traced - before;
-    add_seconds(render, &start, &render->statistics.prepare_seconds);
+    aur_stopwatch_add(&start, &render->statistics.prepare_seconds, &render->statistics.cpu_seconds);
     if (result != AUR_OK) {
         aur_render_destroy(render);
         return result;
@@ -422,7 +421,7 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
             ? do_rounds(work, &parallel, error)
             : aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
     free(work->counted);
-    add_seconds(render, &start, &render->statistics.render_seconds);
+    aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
     warn_of_losses(render);
     atomic_store(&render->cancelled, false);
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)

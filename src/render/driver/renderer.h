@@ -51,11 +51,9 @@ static inline aur_stopwatch aur_stopwatch_start(void) {
     return (aur_stopwatch){aur_clock_seconds(CLOCK_MONOTONIC), aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-/* Adds the seconds since the start. */
-static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, double *cpu) {
-    *wall += aur_clock_seconds(CLOCK_MONOTONIC) - start->wall;
-    *cpu += aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
-}
+/* Adds the seconds since the start. In a job of several processes, which all call it: rank 0's wall clock,
+ * and the processors' sum. */
+void aur_stopwatch_add(const aur_stopwatch *start, double *wall, double *cpu);
 
 /* aur_render_step with a target per pixel: pixel i of the film, row by row, gets its missing samples up to
  * targets[i]. Where pixels share results (`radiosity`, finalgather's `share=true`), all of a tile of 16 x 16

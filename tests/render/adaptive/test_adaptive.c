@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include <aureole-render/adaptive.h>
 
@@ -119,6 +120,24 @@ static void test_all_measures(void **state) {
             assert_near(other.low, asked.low, 1e-9 * asked.error);
             assert_near(other.high, asked.high, 1e-9 * asked.error);
         }
+}
+
+/* What is reported as processor time is that of the process, for all but a few calls. */
+static void test_processor_time(void **state) {
+    const fixture *const f = *state;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.rounds = 12;
+    target.measure = AUR_ERROR_MEASURE_DISPLAY; /* the one that takes longest */
+    aur_render_options options = small(1);
+    options.integrator = "depth"; /* the samples take less time than the statistics */
+    const clock_t before = clock();
+    aur_adaptive *const a = adaptive(f, &options, &target);
+    const double seconds = (double)(clock() - before) / CLOCKS_PER_SEC;
+    const double reported = report_of(a).statistics.cpu_seconds;
+    print_message("%g of %g seconds reported\n", reported, seconds);
+    assert_true(reported > 0.95 * seconds && reported < 1.05 * seconds);
+    aur_adaptive_destroy(a);
 }
 
 static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
@@ -404,6 +423,7 @@ static void test_bad_wishes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
                                        cmocka_unit_test(test_all_measures),
+                                       cmocka_unit_test(test_processor_time),
                                        cmocka_unit_test(test_choice),
                                        cmocka_unit_test(test_progress),
                                        cmocka_unit_test(test_rounds_and_rays),

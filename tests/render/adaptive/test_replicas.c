@@ -41,11 +41,16 @@ static void test_values_of_the_replica_do_not_count(void **state) {
     fixture f;
     begin(&f, 1);
     static double before[REPLICAS * PIXELS], after[REPLICAS * PIXELS];
+    static double light[REPLICAS * PIXELS][3], means[PIXELS][3];
     aur_replica_measure measure;
-    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
+    aur_replicas_mean(&f.replicas, light, means);
+    aur_replicas_measure(&f.replicas, (const double(*)[3])light,
+                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
                          &(aur_pixel_measure){before, f.spreads});
     assert_int_equal(aur_render_step(f.replicas.renders[0], 1, NULL), AUR_OK);
-    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
+    aur_replicas_mean(&f.replicas, light, means);
+    aur_replicas_measure(&f.replicas, (const double(*)[3])light,
+                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
                          &(aur_pixel_measure){after, f.spreads});
     double sums[2] = {0.0, 0.0};
     for (size_t i = 0; i < PIXELS; ++i) {
