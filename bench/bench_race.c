@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "render/adaptive/race.h"
+#include "render/race/race.h"
 #include "room.h"
 
 enum { ROOMS = 12, QUICK_ROOMS = 2 };

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "bench.h"
-#include "render/adaptive/race.h"
+#include "render/race/race.h"
 #include "room.h"
 
 enum { ROOMS = 12, QUICK_ROOMS = 2, WIDTH = 96, HEIGHT = 72, REPLICAS = 4 };

@@ -22,6 +22,8 @@ lighting/daylight
 lighting/irradiance
 lighting/viewfactors
 render/adaptive
+render/race
+render/replicas
 render/driver
 render/estimators
 render/path render/volume render/gather render/radiosity render/occlusion

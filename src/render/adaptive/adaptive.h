@@ -7,7 +7,7 @@
 #include "points/base/parallel.h"
 #include "render/adaptive/bias.h"
 #include "render/adaptive/candidate.h"
-#include "render/adaptive/race.h"
+#include "render/race/race.h"
 
 struct aur_adaptive {
     aur_adaptive_options target;

@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#include "render/adaptive/replicas.h"
+#include "render/replicas/replicas.h"
 #include "render/film/blocks.h"
 
 /* Squares of root mean square errors in the units of a measure. */

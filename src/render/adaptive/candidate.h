@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "render/adaptive/replicas.h"
+#include "render/replicas/replicas.h"
 #include "render/vertex/visible_emitters.h"
 
 typedef struct aur_candidate {

@@ -1,4 +1,4 @@
-#include "render/adaptive/replicas.h"
+#include "render/replicas/replicas.h"
 
 #include <math.h>
 #include <pthread.h>

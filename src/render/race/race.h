@@ -5,7 +5,7 @@
 
 #include <aureole-render/adaptive.h>
 
-#include "render/adaptive/replicas.h"
+#include "render/replicas/replicas.h"
 #include "render/film/blocks.h"
 
 /* The rows of the table of candidates: path tracing, and the one that is used without a race. */

@@ -1,8 +1,8 @@
 /* Statistics of pixels from replicas. */
 #include "check.h"
 
-#include "render/adaptive/replicas.h"
 #include "render/film/film.h"
+#include "render/replicas/replicas.h"
 
 enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
 

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "render/adaptive/race.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
+#include "render/race/race.h"
 
 static const char head[] =
     "<scene version='3.0.0'><integrator type='path'><integer name='max_depth' value='8'/></integrator>"

@@ -1,4 +1,4 @@
-#include "render/adaptive/race.h"
+#include "render/race/race.h"
 
 #include <math.h>
 #include <stdio.h>
