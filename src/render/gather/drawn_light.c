@@ -37,7 +37,7 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
 
 /* Adds one light sample per lane if it is unoccluded; the pdfs count all draws of a sample. */
 static void add_lights(const aur_gather_points *surface_points, aur_embree_order order,
-                       const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
+                       const aur_light_lanes *lights, aur_gather_sums *sums) {
     aur_packet *const packet = &sums->rays.packet;
     aur_vector radiance[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
@@ -45,12 +45,12 @@ static void add_lights(const aur_gather_points *surface_points, aur_embree_order
     for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_point *const surface_point = &surface_points->at[lane];
-        const aur_light_sample *const light = &lights[lane];
-        if (!(light->pdf > 0.0f))
+        const aur_light_sample light = aur_light_lane(lights, lane);
+        if (!(light.pdf > 0.0f))
             continue;
         aur_shadow shadow;
-        if (!aur_vertex_shadow(&surface_point->surface, light,
-                               weighted_value(surface_points->plan, surface_point, light), 1.0f, &shadow))
+        if (!aur_vertex_shadow(&surface_point->surface, &light,
+                               weighted_value(surface_points->plan, surface_point, &light), 1.0f, &shadow))
             continue;
         radiance[lane] = shadow.radiance;
         aur_packet_set(packet, lane, &shadow.ray);
@@ -61,6 +61,20 @@ static void add_lights(const aur_gather_points *surface_points, aur_embree_order
     const uint32_t lit = aimed & ~aur_gather_occluded(surface_points->plan, order, packet);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
         aur_gather_add(sums, surface_points, aur_first_lane(rest), radiance[aur_first_lane(rest)]);
+}
+
+/* Sets the directions from the reference points, and the pdfs of all draws. */
+static void complete(const aur_lane_vectors *position, float draws, aur_light_lanes *lights) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float x = lights->position.x[k] - position->x[k], y = lights->position.y[k] - position->y[k];
+        const float z = lights->position.z[k] - position->z[k];
+        const float length = sqrtf(x * x + y * y + z * z);
+        const float scale = length > 0.0f ? 1.0f / length : 1.0f;
+        lights->direction.x[k] = x * scale;
+        lights->direction.y[k] = y * scale;
+        lights->direction.z[k] = z * scale;
+        lights->pdf[k] *= draws;
+    }
 }
 
 void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_gather_sums *sums) {
@@ -77,6 +91,7 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
     const aur_light_references references = {&position, &normal};
     const bool chooses = aur_light_chooses(plan->scene);
     const uint32_t pair = aur_gather_first_pair(surface_points->bounces), draws = plan->light.draws;
+    aur_light_lanes lights = {0};
     for (uint32_t k = 0; k < draws; ++k) {
         const uint32_t index = surface_points->index * draws + k;
         float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
@@ -85,17 +100,9 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
                               pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
         aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                           pair + AUR_GATHER_PAIR_POSITION, u, v);
-        aur_light_lanes drawn = {0};
-        aur_light_lanes_direct(plan->scene, surface_points->lanes, &references, choice, u, v, &drawn);
-        aur_light_sample lights[AUR_PACKET_SIZE];
-        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            aur_light_sample *const light = &lights[lane];
-            *light = aur_light_lane(&drawn, lane);
-            light->direction =
-                aur_vector_normalize(aur_vector_subtract(light->position, aur_lane_vector(&position, lane)));
-            light->pdf *= (float)draws;
-        }
-        add_lights(surface_points, surface_points->order, lights, sums);
+        aur_light_lanes_direct(plan->scene, surface_points->lanes, &references, choice, u, v, &lights);
+        complete(&position, (float)draws, &lights);
+        add_lights(surface_points, surface_points->order, &lights, sums);
     }
 }
 
@@ -104,8 +111,10 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position, uint64_t hash) {
     const aur_gather_light *const from = &plan->light;
+    const uint32_t texel =
+        aur_texel_of_triangle(from->map->texels.ranges[point->element], point->u, point->v);
     const aur_photon_radiance map_light =
-        aur_gather_plan_photons(plan, point->shape, point->element, point->u, point->v, point->behind);
+        aur_gather_plan_photons(plan, point->shape, point->element, texel, point->u, point->v, point->behind);
     aur_vector radiance = map_light.radiance;
     const aur_vector offset = aur_vector_subtract(point->position, position);
     const float square = aur_vector_dot(offset, offset);
@@ -152,15 +161,17 @@ void aur_gather_add_bright_light(const aur_gather_points *surface_points, aur_ga
                           pair + AUR_GATHER_PAIR_TEXEL, choice, unused);
         aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                           pair + AUR_GATHER_PAIR_TEXEL_POSITION, u, v);
-        aur_light_sample lights[AUR_PACKET_SIZE];
+        aur_light_lanes lights;
         for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_bright_point point =
                 aur_bright_texels_sample(from->bright, plan->scene, from->map, (double)choice[lane],
                                          (const float[2]){u[lane], v[lane]});
-            lights[lane] = light_from(plan, &point, surface_points->at[lane].surface.position,
-                                      aur_hash4(surface_points->pixels[lane], index, pair, plan->seed));
+            const aur_light_sample sample =
+                light_from(plan, &point, surface_points->at[lane].surface.position,
+                           aur_hash4(surface_points->pixels[lane], index, pair, plan->seed));
+            aur_light_lane_set(&lights, lane, &sample);
         }
-        add_lights(surface_points, AUR_EMBREE_INCOHERENT, lights, sums);
+        add_lights(surface_points, AUR_EMBREE_INCOHERENT, &lights, sums);
     }
 }

@@ -132,29 +132,33 @@ static bool scatter(const aur_shading *shading, float distance, gather_chain *ch
     return true;
 }
 
-/* `hit` is the ray's first hit, or NULL if it left the scene. */
+/* `hit` is the ray's first hit, on `surface`; or NULL if it left the scene. */
 static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const aur_hit *hit,
-                                 waiting_paths *waiting, aur_gather_rays *rays, aur_counters *counters) {
+                                 const aur_surface *surface, waiting_paths *waiting, aur_gather_rays *rays,
+                                 aur_counters *counters) {
     const aur_scene *const scene = plan->scene;
     const bool samples_lights =
         plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
     aur_hit next;
-    for (; hit != NULL; hit = aur_scene_intersect(scene, &chain.path.ray, &next) ? &next : NULL) {
-        aur_surface surface;
-        aur_scene_surface(scene, &chain.path.ray, hit, &surface);
+    aur_surface next_surface;
+    while (hit != NULL) {
         const aur_shading shading =
-            aur_shading_at(&surface, aur_vector_scale(chain.path.ray.direction, -1.0f));
-        const unsigned kinds = aur_bsdf_scatters(surface.bsdf, shading.view.z);
+            aur_shading_at(surface, aur_vector_scale(chain.path.ray.direction, -1.0f));
+        const unsigned kinds = aur_bsdf_scatters(surface->bsdf, shading.view.z);
         /* Two edges lead here and one per link of the chain; a photon adds at least one more. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
-        add_emission(plan, &surface, &chain);
+        add_emission(plan, surface, &chain);
         if (deeper && (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0)
-            add_scattered(plan, hit, &surface, waiting, rays, &chain);
+            add_scattered(plan, hit, surface, waiting, rays, &chain);
         if (deeper && (kinds & AUR_SCATTERS_SAMPLED) != 0 && samples_lights)
             add_sampled_light(plan, &shading, &chain);
         if (!deeper || (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 ||
             !scatter(&shading, hit->distance, &chain, counters))
             return chain.path.radiance;
+        hit = aur_scene_intersect(scene, &chain.path.ray, &next) ? &next : NULL;
+        if (hit != NULL)
+            aur_scene_surface(scene, &chain.path.ray, hit, &next_surface);
+        surface = &next_surface;
     }
     add_emission(plan, NULL, &chain);
     return chain.path.radiance;
@@ -177,19 +181,17 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     return along > 0.0f ? aur_power_heuristic(rays->density[lane], other_pdf) : 1.0f;
 }
 
-/* Radiance of a diffuse surface without emission and outside instances: from the map, or from a path where
- * the texel is near or the map is corrected. */
-static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiting_paths *waiting,
-                                 aur_gather_rays *rays) {
+/* Radiance of a diffuse surface without emission and outside instances: from the map's `texel`, or from a
+ * path where the texel is near or the map is corrected. */
+static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, uint32_t element, uint32_t texel,
+                                 waiting_paths *waiting, aur_gather_rays *rays) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
-    const uint32_t shape = query->hit.geomID[lane];
     const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
                             query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
                         0.0f;
-    const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
-    const aur_photon_radiance map_light =
-        aur_gather_plan_photons(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
+    const aur_photon_radiance map_light = aur_gather_plan_photons(
+        plan, query->hit.geomID[lane], element, texel, query->hit.u[lane], query->hit.v[lane], behind);
     const float weight =
         plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, map_light.radiance) : 1.0f;
     const uint64_t hash = aur_gather_rays_hash(rays, lane);
@@ -226,57 +228,70 @@ static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packe
 
 /* --- what is read of the sixteen hits comes from memory together */
 
-static const aur_texel_range *range_of(const aur_irradiance_map *map, const aur_hit *hit) {
-    return &map->texels.ranges[aur_element_of(&map->texels.elements, hit)];
-}
+/* What the packet's rays hit. */
+typedef struct gather_hits {
+    uint32_t found, plain; /* lanes: with a hit, and those of plain_lanes */
+    uint32_t element[AUR_PACKET_SIZE];
+    uint32_t texel[AUR_PACKET_SIZE]; /* of the map; on curved shapes another one of the element */
+    aur_hit hits[AUR_PACKET_SIZE];   /* those of lanes that are not plain; and their surfaces */
+    aur_surface surfaces[AUR_PACKET_SIZE];
+} gather_hits;
 
-/* The index of a hit's light on a triangle, for prefetching: on curved shapes another texel of the element.
- */
-static size_t light_of(const aur_irradiance_map *map, const aur_hit *hit) {
-    return 2 * (size_t)aur_texel_of_triangle(*range_of(map, hit), hit->u, hit->v);
-}
-
-static void prefetch_lights(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
-                            uint32_t found) {
-    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
-        const aur_hit hit = aur_packet_hit(scene, packet, aur_first_lane(rest));
-        const size_t light = light_of(map, &hit);
+/* Sets texels, and fetches their light. */
+static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
+                        gather_hits *all) {
+    for (uint32_t rest = all->found; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_hit hit = aur_packet_hit(scene, packet, lane);
+        all->element[lane] = aur_element_of(&map->texels.elements, &hit);
+        __builtin_prefetch(&map->texels.ranges[all->element[lane]]);
+    }
+    for (uint32_t rest = all->found; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const struct RTCHit16 *const hit = &packet->query.hit;
+        all->texel[lane] =
+            aur_texel_of_triangle(map->texels.ranges[all->element[lane]], hit->u[lane], hit->v[lane]);
+        const size_t light = 2 * (size_t)all->texel[lane];
         __builtin_prefetch(&map->lights[light]);
         if (map->member_first != NULL)
             __builtin_prefetch(&map->member_first[light]);
     }
 }
 
-static void prefetch(const aur_gather_plan *plan, const aur_packet *packet, uint32_t found, uint32_t plain) {
-    const aur_irradiance_map *const map = plan->light.map;
-    aur_packet_prefetch_indices(plan->scene, packet, found & ~plain);
-    for (uint32_t rest = map != NULL ? found : 0; rest != 0; rest &= rest - 1) {
-        const aur_hit hit = aur_packet_hit(plan->scene, packet, aur_first_lane(rest));
-        __builtin_prefetch(range_of(map, &hit));
+static void find_hits(const aur_gather_plan *plan, const aur_packet *packet, gather_hits *all) {
+    const uint32_t others = all->found & ~all->plain;
+    aur_packet_prefetch_indices(plan->scene, packet, others);
+    aur_packet_prefetch_vertices(plan->scene, packet, others);
+    if (plan->light.map != NULL)
+        find_texels(plan->light.map, plan->scene, packet, all);
+    for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_ray ray = aur_packet_ray(packet, lane);
+        all->hits[lane] = aur_packet_hit(plan->scene, packet, lane);
+        aur_scene_surface(plan->scene, &ray, &all->hits[lane], &all->surfaces[lane]);
+        aur_surface_prefetch(plan->scene, &all->surfaces[lane]);
     }
-    aur_packet_prefetch_vertices(plan->scene, packet, found & ~plain);
-    if (map != NULL)
-        prefetch_lights(map, plan->scene, packet, found);
 }
 
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
                            aur_counters *counters) {
     const uint32_t lanes = aur_lanes_set(rays->packet.valid);
-    const uint32_t found = aur_gather_intersect(plan, order, &rays->packet);
+    gather_hits all;
+    all.found = aur_gather_intersect(plan, order, &rays->packet);
+    all.plain = plain_lanes(plan, &rays->packet, all.found);
     const bool has_sky = aur_scene_has_environment(plan->scene);
-    const uint32_t plain = plain_lanes(plan, &rays->packet, found);
     waiting_paths waiting;
     waiting.count = 0;
-    prefetch(plan, &rays->packet, found, plain);
+    find_hits(plan, &rays->packet, &all);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;
-    for (uint32_t rest = has_sky ? lanes : found; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = has_sky ? lanes : all.found; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const bool hits = aur_has_lane(found, lane);
+        const bool hits = aur_has_lane(all.found, lane);
         aur_vector radiance;
-        if (aur_has_lane(plain, lane)) {
-            radiance = plain_radiance(plan, lane, &waiting, rays);
+        if (aur_has_lane(all.plain, lane)) {
+            radiance = plain_radiance(plan, lane, all.element[lane], all.texel[lane], &waiting, rays);
         } else {
             /* The density is needed only for light that is sampled too. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
@@ -289,10 +304,8 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
                                         .lane = lane,
                                         .hash = aur_gather_rays_hash(rays, lane),
                                         .specular = true};
-            aur_hit hit = {0};
-            if (hits)
-                hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-            radiance = chain_radiance(plan, chain, hits ? &hit : NULL, &waiting, rays, counters);
+            radiance = chain_radiance(plan, chain, hits ? &all.hits[lane] : NULL, &all.surfaces[lane],
+                                      &waiting, rays, counters);
         }
         rays->radiance[0][lane] += radiance.x;
         rays->radiance[1][lane] += radiance.y;

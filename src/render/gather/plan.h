@@ -77,13 +77,15 @@ typedef struct aur_photon_radiance {
     float area;          /* of the first one's texel */
 } aur_photon_radiance;
 
+/* `texel` is that of the first map. */
 static inline aur_photon_radiance aur_gather_plan_photons(const aur_gather_plan *plan, uint32_t shape,
-                                                          uint32_t element, float u, float v, bool behind) {
+                                                          uint32_t element, uint32_t texel, float u, float v,
+                                                          bool behind) {
     const aur_gather_light *const light = &plan->light;
     const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
-    const aur_texel_light *const texel = aur_irradiance_on_triangle(light->map, element, u, v, behind);
-    aur_photon_radiance map_light = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
-                                     .area = texel->area};
+    const aur_texel_light *const found = &light->map->lights[2 * (size_t)texel + (behind ? 1 : 0)];
+    aur_photon_radiance map_light = {.radiance = aur_vector_multiply(albedo, found->irradiance),
+                                     .area = found->area};
     if (light->caustics != NULL)
         map_light.caustics = aur_vector_multiply(
             albedo, aur_irradiance_on_triangle(light->caustics, element, u, v, behind)->irradiance);

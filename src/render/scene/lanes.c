@@ -7,21 +7,13 @@ static aur_light_reference reference_of(const aur_light_references *references, 
                                  aur_lane_vector(references->normal, lane)};
 }
 
-static void set_lane(const aur_light_sample *sample, size_t lane, aur_light_lanes *lights) {
-    aur_lane_set(&lights->position, lane, sample->position);
-    aur_lane_set(&lights->direction, lane, sample->direction);
-    aur_lane_set(&lights->radiance, lane, sample->radiance);
-    lights->pdf[lane] = sample->pdf;
-    lights->reachable[lane] = sample->delta ? 0.0f : 1.0f;
-}
-
 static void light_lane(const aur_scene *scene, const aur_light_references *references, const float u[3],
                        size_t lane, aur_light_lanes *lights) {
     const aur_light_reference reference = reference_of(references, lane);
     aur_light_sample one;
     if (!aur_light_sample_direct(scene, &reference, u, &one))
         one = (aur_light_sample){0};
-    set_lane(&one, lane, lights);
+    aur_light_lane_set(lights, lane, &one);
 }
 
 /* All lanes by vector code, for a light that they chose with the same probability; false: not supported. */
@@ -87,7 +79,7 @@ static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_
         if (aur_light_choose(scene, &reference, numbers, &choices->lights[k]))
             lit |= 1u << k;
         else
-            set_lane(&(aur_light_sample){0}, k, lights);
+            aur_light_lane_set(lights, k, &(aur_light_sample){0});
     }
     return lit;
 }
@@ -114,7 +106,7 @@ static void sample_light(const aur_scene *scene, uint32_t lanes, const aur_light
             if (!aur_light_sample_chosen(scene, chosen, &reference, choices->rest[k], &one))
                 one = (aur_light_sample){0};
         }
-        set_lane(&one, k, lights);
+        aur_light_lane_set(lights, k, &one);
     }
 }
 

@@ -44,6 +44,14 @@ static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, siz
                               .delta = lights->reachable[lane] == 0.0f};
 }
 
+static inline void aur_light_lane_set(aur_light_lanes *lights, size_t lane, const aur_light_sample *sample) {
+    aur_lane_set(&lights->position, lane, sample->position);
+    aur_lane_set(&lights->direction, lane, sample->direction);
+    aur_lane_set(&lights->radiance, lane, sample->radiance);
+    lights->pdf[lane] = sample->pdf;
+    lights->reachable[lane] = sample->delta ? 0.0f : 1.0f;
+}
+
 /* For active lanes; results of the others are undefined. `choice` is read only if aur_light_chooses, and may
  * otherwise be NULL. Bit-identical to single samples; environment maps are sampled together. */
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,

@@ -77,28 +77,13 @@ aur_vector aur_vertex_adjoint(const aur_shading *shading, const aur_bsdf_sample 
                             cos_out / (aur_larger(cos_in, least) * sample->pdf));
 }
 
-/* Sets the unoccluded contribution of a light sample; false if it is zero. */
-static bool set_radiance(const aur_light_sample *light, aur_vector value, float weight, aur_shadow *shadow) {
-    const aur_vector radiance = aur_vector_multiply(value, light->radiance);
-    shadow->radiance = aur_vector_scale(radiance, weight / light->pdf);
-    return !aur_vector_is_zero(radiance);
-}
-
-bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light, aur_vector value,
-                       float weight, aur_shadow *shadow) {
-    if (!set_radiance(light, value, weight, shadow))
-        return false;
-    shadow->ray = aur_surface_ray_to(surface, light->position);
-    return true;
-}
-
 bool aur_vertex_irradiance(const aur_light_reference *sensor, aur_vertex_samples samples,
                            const aur_light_sample *light, aur_shadow *shadow) {
     const float cosine = aur_vector_dot(sensor->normal, light->direction);
     if (!(light->pdf > 0.0f) || !(cosine > 0.0f))
         return false;
     const float weight = aur_light_weight(light, samples, cosine / AUR_PI_F) / samples.lights;
-    if (!set_radiance(light, (aur_vector){1.0f, 1.0f, 1.0f}, weight * cosine, shadow))
+    if (!aur_shadow_radiance(light, (aur_vector){1.0f, 1.0f, 1.0f}, weight * cosine, shadow))
         return false;
     shadow->ray = aur_ray_between(sensor->position, light->position);
     return true;

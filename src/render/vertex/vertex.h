@@ -97,10 +97,23 @@ static inline float aur_light_weight(const aur_light_sample *light, aur_vertex_s
     return light->delta ? 1.0f : aur_power_heuristic(samples.lights * light->pdf, samples.directions * pdf);
 }
 
+/* Sets the unoccluded contribution of a light sample; false if it is zero. */
+static inline bool aur_shadow_radiance(const aur_light_sample *light, aur_vector value, float weight,
+                                       aur_shadow *shadow) {
+    const aur_vector radiance = aur_vector_multiply(value, light->radiance);
+    shadow->radiance = aur_vector_scale(radiance, weight / light->pdf);
+    return !aur_vector_is_zero(radiance);
+}
+
 /* The shadow ray to a light sample and its unoccluded contribution, from `value`: BSDF * |cos|, or a part of
  * it. False if no light arrives. */
-bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light, aur_vector value,
-                       float weight, aur_shadow *shadow);
+static inline bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light,
+                                     aur_vector value, float weight, aur_shadow *shadow) {
+    if (!aur_shadow_radiance(light, value, weight, shadow))
+        return false;
+    shadow->ray = aur_surface_ray_to(surface, light->position);
+    return true;
+}
 /* The same for lobes of the BSDF, with the MIS weight, for a given light sample. */
 bool aur_vertex_light(const aur_shading *shading, aur_vertex_lobes lobes, aur_vertex_samples samples,
                       const aur_light_sample *light, aur_shadow *shadow);
