@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "points/base/names.h"
+#include "points/base/random.h"
 #include "render/film/integrator.h"
 
 enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
@@ -16,6 +17,7 @@ typedef struct aov_sample {
     const aur_hit *hit; /* NULL: the ray hits nothing, and the rest is 0 */
     const aur_surface *surface;
     const double *origin; /* of the scene's coordinates */
+    uint64_t hash;        /* for random numbers */
 } aov_sample;
 
 typedef struct aov_type {
@@ -34,6 +36,20 @@ static void albedo(const aov_sample *sample, float *values) {
     const aur_surface *const surface = sample->surface;
     const float side = -aur_vector_dot(surface->frame.z, sample->ray->direction);
     put(aur_bsdf_diffuse_albedo(surface->bsdf, surface->texture, side), values);
+}
+
+/* The weight of one sampled direction: on average the share of equal light from all directions, without what
+ * refraction concentrates. */
+static void reflectance(const aov_sample *sample, float *values) {
+    const aur_surface *const surface = sample->surface;
+    const aur_vector view =
+        aur_frame_to_local(&surface->frame, aur_vector_scale(sample->ray->direction, -1.0f));
+    uint64_t hash = sample->hash;
+    float u[3];
+    aur_draw_units(&hash, u);
+    aur_bsdf_sample drawn;
+    if (aur_bsdf_draw(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, view, u, &drawn))
+        put(aur_vector_scale(drawn.weight, drawn.ior_squared > 0.0f ? drawn.ior_squared : 1.0f), values);
 }
 
 static void depth(const aov_sample *sample, float *values) {
@@ -85,6 +101,7 @@ static const aov_type types[] = {
     {"geo_normal", "XYZ", geo_normal},   {"sh_normal", "XYZ", sh_normal},
     {"prim_index", "I", prim_index},     {"shape_index", "I", shape_index},
     {"sample_count", "N", sample_count}, {"variance", "RGB", variance},
+    {"reflectance", "RGB", reflectance},
 };
 
 enum { TYPE_COUNT = sizeof types / sizeof types[0] };
@@ -229,7 +246,8 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
                            .ray = &sample.ray,
                            .hit = found ? &hit : NULL,
                            .surface = &surface,
-                           .origin = aur_scene_origin(integrator->scene)};
+                           .origin = aur_scene_origin(integrator->scene),
+                           .hash = aur_hash4(UINT64_C(0x7265666c656374), x, y, index)};
     float values[3 + CHANNEL_CAPACITY] = {0};
     put(at.radiance, values);
     for (size_t i = 0, channel = 3; i < data->count; ++i) {

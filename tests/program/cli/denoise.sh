@@ -80,8 +80,10 @@ isolated() { python3 "$source/tests/program/cli/isolated.py" "$1"; }
 noisy=$(isolated plain.pfm) clean=$(isolated e.pfm)
 echo "isolated pixels, bright and dark: $noisy of the noisy image, $clean of the denoised one"
 [ "${noisy% *}" -gt 10 ] && [ "${clean% *}" -eq 0 ] || fail "isolated pixels"
-# The error of what is denoised is estimated by two halves.
+# With a target error, that of what is denoised is estimated by two halves.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
+grep -q 'denoised half' message.txt && fail "an error of halves without a target"
+AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --error 60% --integrator path -o f.exr --denoise 2>message.txt
 grep -q 'denoised half of the samples: [0-9.]* % of the local mean (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
 # Where the image has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&

@@ -13,7 +13,7 @@ static struct stub_filter {
         size_t offset, pixel_stride, row_stride;
     } images[COUNT];
     size_t width, height;
-    bool hdr, committed;
+    bool hdr, clean, committed;
 } filter;
 static int device;
 static const char *wrong = NULL;
@@ -71,7 +71,9 @@ void oidnSetSharedFilterImage(void *of, const char *name, void *data, int format
 }
 
 void oidnSetFilterBool(void *of, const char *name, bool value) {
-    ((struct stub_filter *)of)->hdr = strcmp(name, "hdr") == 0 && value;
+    struct stub_filter *const self = of;
+    self->hdr = self->hdr || (strcmp(name, "hdr") == 0 && value);
+    self->clean = self->clean || (strcmp(name, "cleanAux") == 0 && value);
 }
 
 void oidnCommitFilter(void *of) {
@@ -94,7 +96,7 @@ static float blurred(size_t x, size_t y, size_t c) {
 
 void oidnExecuteFilter(void *of) {
     (void)of;
-    if (!filter.committed || !filter.hdr)
+    if (!filter.committed || !filter.hdr || !filter.clean)
         wrong = "not committed";
     for (size_t y = 0; y < filter.height; ++y)
         for (size_t x = 0; x < filter.width; ++x)

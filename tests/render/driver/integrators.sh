@@ -47,6 +47,11 @@ for what in minimum maximum; do
   near "samples" "$(channel n.N $what aov.exr)" 4 0
 done
 near "depth" "$(channel d.T minimum aov.exr)" 3 2e-3
+# White materials reflect or transmit all light, also those without a diffuse part.
+for material in mirror glass pane veil; do
+  "$aureole" render "$source/tests/render/driver/white_bodies.xml" -q --spp 16 -Dmaterial=$material --integrator 'aov:aovs=(r:reflectance)' -o white.exr || fail "$material"
+  near "reflectance of $material" "$(channel r.G maximum white.exr)" 1 1e-5
+done
 "$aureole" render "$sky" -q --spp 4 --integrator depth -o depth.exr || fail "depth"
 near "depth beside aov" "$(channel R mean depth.exr)" "$(channel d.T mean aov.exr)" 1e-7
 "$aureole" render "$sky" -q --spp 4 --integrator direct:emitter_samples=2 -o direct.exr || fail "direct"

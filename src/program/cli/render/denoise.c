@@ -25,7 +25,7 @@ static aur_result render_features(aur_renderer *renderer, const aur_render_optio
                                   aur_image **features, aur_error *error) {
     enum { SAMPLES = 16 };
     aur_render_options aov_options = *options;
-    aov_options.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=(path:max_depth=1)";
+    aov_options.integrator = "aov:aovs=(albedo:reflectance,normal:sh_normal),integrator=(path:max_depth=1)";
     aov_options.sampler = "sobol";
     aov_options.samples_per_pixel = SAMPLES;
     aov_options.resumable = false;

@@ -139,6 +139,7 @@ aur_result cli_oidn_run(const cli_oidn *oidn, aur_image *image, aur_image *featu
         set_image(oidn, filter, "normal", features, 6);
         set_image(oidn, filter, "output", out, 0);
         oidn->set_bool(filter, "hdr", true);
+        oidn->set_bool(filter, "cleanAux", true);
         oidn->commit_filter(filter);
         oidn->execute_filter(filter);
         oidn->release_filter(filter);

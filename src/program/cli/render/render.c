@@ -285,8 +285,9 @@ static aur_result begin(render_command *command, aur_error *error) {
 static aur_result denoise(const render_command *command, aur_renderer *renderer, const aur_adaptive *adaptive,
                           aur_image **image, aur_error *error) {
     aur_error_figures halves;
-    const aur_result result =
-        cli_denoise_image(&command->denoise, renderer, &command->options, adaptive, image, &halves, error);
+    const bool bounds = command->target.error > 0.0;
+    const aur_result result = cli_denoise_image(&command->denoise, renderer, &command->options,
+                                                bounds ? adaptive : NULL, image, &halves, error);
     if (result == AUR_OK && !command->common.quiet && halves.high > 0.0)
         cli_report_denoised(&halves, command->target.measure);
     return result;
