@@ -39,6 +39,7 @@ static const struct field {
     FIELD(race.entries[AUR_RACE_MIDDLE].need),
     FIELD(race.entries[AUR_RACE_LIGHTS].need),
     FIELD(race.entries[AUR_RACE_LONG].need),
+    FIELD(race.entries[AUR_RACE_CANDIDATES].need),
     FIELD(candidate.rate),
     FIELD(candidate.finished),
     FIELD(candidate.rays_before),
@@ -131,7 +132,7 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         result = aur_fail_in(error, aur_render_merge(candidate->replicas.renders[r], saved->films[r], error),
                              path);
     }
-    if (result == AUR_OK && words[STEPS] > 0 && adaptive->row != AUR_RACE_PATH) {
+    if (result == AUR_OK && words[STEPS] > 0 && aur_race_gathers(adaptive->row)) {
         aur_candidate_measure(candidate);
         result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);
         aur_adaptive_bound_bias(adaptive);

@@ -63,13 +63,13 @@ static uint64_t rays_left(const aur_adaptive *adaptive) {
 }
 
 uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive) {
-    const bool corrects = adaptive->target.rays > 0 && adaptive->row != AUR_RACE_PATH;
+    const bool corrects = adaptive->target.rays > 0 && aur_race_gathers(adaptive->row);
     return corrects ? (uint64_t)(CORRECTIONS_PART * (double)rays_left(adaptive)) : 0;
 }
 
 double aur_adaptive_bias_room(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
-    return adaptive->row != AUR_RACE_PATH ? BIAS_PART * target->error : target->bias;
+    return aur_race_gathers(adaptive->row) ? BIAS_PART * target->error : target->bias;
 }
 
 aur_goal aur_adaptive_goal(const aur_adaptive *adaptive) {
@@ -98,7 +98,7 @@ aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_erro
     aur_result result =
         aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
                              adaptive->target.measure, &adaptive->candidate, error);
-    if (result == AUR_OK && adaptive->row != AUR_RACE_PATH) {
+    if (result == AUR_OK && aur_race_gathers(adaptive->row)) {
         const uint64_t traced = aur_rays_traced;
         char *const text = aur_race_correction(adaptive->row, adaptive->path, adaptive->photons);
         result = text != NULL
@@ -138,7 +138,7 @@ static aur_result take_ranked(aur_adaptive *adaptive, size_t rank, aur_error *er
     adaptive->others = aur_adaptive_spent(adaptive);
     adaptive->rank = rank;
     return aur_adaptive_take(
-        adaptive, row, row == AUR_RACE_PATH ? 0 : aur_race_photons(work, adaptive->target.replicas), error);
+        adaptive, row, aur_race_gathers(row) ? aur_race_photons(work, adaptive->target.replicas) : 0, error);
 }
 
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
@@ -236,7 +236,7 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
              too_large ? "the bias of its photon map is more than half of the target error"
                        : "more rays are needed to bound the bias of its photon map than are saved");
     size_t rank = adaptive->rank + 1;
-    while (rank + 1 < race->order_count && race->order[rank] != AUR_RACE_PATH && !too_large)
+    while (rank + 1 < race->order_count && aur_race_gathers(race->order[rank]) && !too_large)
         ++rank;
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }

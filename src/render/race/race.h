@@ -9,7 +9,20 @@
 #include "render/film/blocks.h"
 
 /* The rows of the table of candidates: path tracing, and the one that is used without a race. */
-enum { AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_MIDDLE, AUR_RACE_LIGHTS, AUR_RACE_LONG, AUR_RACE_ROWS };
+enum {
+    AUR_RACE_PATH,
+    AUR_RACE_SHARED,
+    AUR_RACE_MIDDLE,
+    AUR_RACE_LIGHTS,
+    AUR_RACE_LONG,
+    AUR_RACE_CANDIDATES,
+    AUR_RACE_ROWS
+};
+
+/* Whether a row gathers from a photon map; the others are path tracing, without bias. */
+static inline bool aur_race_gathers(size_t row) {
+    return row != AUR_RACE_PATH && row != AUR_RACE_CANDIDATES;
+}
 
 /* A candidate's integrator with its keys, allocated with malloc; NULL: out of memory. `path` is
  * "path[:key=value...]", whose keys are passed on. Each replica has separate photons; with a `seed` other

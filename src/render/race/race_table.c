@@ -11,7 +11,8 @@ static const double RAYS_PER_PHOTON = 2.5;
 enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 
 /* Path tracing; final gathering by 8 directions shared with neighbours; by 32, with 4 and with 16 light
- * samples; and without short rays. A correction has only `keys`: nothing is shared. */
+ * samples; and without short rays; paths with two candidates for each light sample. A correction has only
+ * `keys`: nothing is shared. */
 typedef struct race_row {
     const char *name, *keys, *more;
 } race_row;
@@ -27,6 +28,7 @@ static const race_row rows[AUR_RACE_ROWS] = {
     [AUR_RACE_LONG] = {"gather-32-long",
                        "split=4,diffuse_samples=32,glossy_samples=16,light_samples=1,short_rays=0",
                        ",edges=192"},
+    [AUR_RACE_CANDIDATES] = {"path-2", "candidates=2", NULL},
 };
 
 const char *aur_race_name(size_t row) {
@@ -37,6 +39,8 @@ static char *compose(size_t row, const char *path, size_t photons, const char *m
     if (rows[row].keys == NULL)
         return strdup(path);
     const char *const keys = strchr(path, ':');
+    if (!aur_race_gathers(row))
+        return aur_new_text("%s%s%s", path, keys != NULL ? "," : ":", rows[row].keys);
     return aur_new_text("finalgather:%s,photons=%zu%s%s%s", rows[row].keys, photons, more,
                         keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "render/driver/renderer.h"
@@ -30,6 +31,12 @@ static const char direct[] =
     "value='20'/><translate "
     "z='-.3'/></transform><bsdf type='diffuse'><texture name='reflectance' type='checkerboard'><transform "
     "name='to_uv'><scale value='1500'/></transform></texture></bsdf></shape></scene>";
+
+/* A glossy wall under a clear sky with its sun. */
+static const char wall[] =
+    "<emitter type='sunsky'/><shape type='rectangle'><transform name='to_world'><rotate x='1' angle='90'/>"
+    "<scale value='2'/><translate y='1'/></transform><bsdf type='twosided'><bsdf type='roughplastic'><float "
+    "name='alpha' value='.3'/></bsdf></bsdf></shape></scene>";
 
 static const char black[] = "<shape type='cube'/></scene>";
 static const char sky[] = "<emitter type='constant'/></scene>";
@@ -96,6 +103,22 @@ static void test_paths_win(void **state) {
     const aur_race *const race = &f.race;
     assert_int_equal(race->order[0], AUR_RACE_PATH);
     assert_true(race->entries[AUR_RACE_MIDDLE].need > 2.0 * race->entries[AUR_RACE_PATH].need);
+    end(&f);
+}
+
+/* Paths with two points on lights each are tried where there are several lights or a sky. */
+static void test_candidates(void **state) {
+    (void)state;
+    fixture f;
+    run(wall, 0.002, 64, 48, &f);
+    assert_true(f.race.entries[AUR_RACE_CANDIDATES].blocks > 0);
+    assert_true(f.race.entries[AUR_RACE_CANDIDATES].need > 0.0);
+    char *const text = aur_race_integrator(AUR_RACE_CANDIDATES, "path:max_depth=8", 0, 0);
+    assert_string_equal(text, "path:max_depth=8,candidates=2");
+    free(text);
+    end(&f);
+    run(indirect, 0.002, 64, 48, &f);
+    assert_int_equal(f.race.entries[AUR_RACE_CANDIDATES].blocks, 0);
     end(&f);
 }
 
@@ -183,9 +206,9 @@ static void test_shared_block(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
-        cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
-        cmocka_unit_test(test_small_race),  cmocka_unit_test(test_shared_block)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
+                                       cmocka_unit_test(test_candidates),  cmocka_unit_test(test_no_race),
+                                       cmocka_unit_test(test_no_choice),   cmocka_unit_test(test_small_race),
+                                       cmocka_unit_test(test_shared_block)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
