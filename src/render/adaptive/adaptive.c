@@ -245,16 +245,15 @@ static double bound_part(const aur_adaptive *adaptive) {
     return adaptive->target.error > 0.0 ? sqrt(0.5 + 0.5 * fmax(adaptive->candidate.pooled, 1.0)) : 1.0;
 }
 
-/* The interval of noise and bias together by a measure; its ends are those of both. */
+/* The interval of noise and bias together by a measure. */
 static aur_error_interval whole_error(const aur_adaptive *adaptive, size_t measure) {
     const aur_error_interval *const noise = &adaptive->candidate.intervals[measure];
     const aur_bias *const bias = &adaptive->bias[measure];
-    const double high = noise->high * bound_part(adaptive);
-    return (aur_error_interval){.estimate =
-                                    sqrt(noise->estimate * noise->estimate + fmax(bias->estimate, 0.0)),
-                                .low = sqrt(noise->low * noise->low + bias->low),
-                                .high = sqrt(high * high + bias->high),
-                                .degrees = noise->degrees};
+    return (aur_error_interval){
+        .estimate = sqrt(noise->estimate * noise->estimate + fmax(bias->estimate, 0.0)),
+        .low = sqrt(noise->low * noise->low + bias->low),
+        .high = aur_bias_with_noise(bias, noise->estimate, noise->high * bound_part(adaptive)),
+        .degrees = noise->degrees};
 }
 
 static bool is_met(const aur_adaptive *adaptive) {

@@ -28,11 +28,10 @@ struct aur_adaptive {
     size_t rank;    /* of the candidate in the race */
     size_t row;     /* the candidate's in the table; AUR_RACE_PATH where the integrator is named */
     size_t photons; /* of each replica's map */
+    double level; /* of noise that leaves room for the candidate's bias: a square, relative to the error's */
     aur_corrections corrections;
     bool unchecked;                         /* the bias was not bounded since the last round */
     aur_bias bias[AUR_ERROR_MEASURE_COUNT]; /* of the candidate, by each measure */
-    aur_bias shared;                        /* of shared irradiance alone, by the target's measure */
-    uint64_t shared_rounds;                 /* the round that it is of; 0: of none */
 };
 
 /* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is

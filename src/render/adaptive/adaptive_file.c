@@ -31,6 +31,7 @@ static const struct field {
     size_t offset, bytes;
 } fields[] = {
     FIELD(rank),
+    FIELD(level),
     FIELD(others.all),
     FIELD(race.order_count),
     FIELD(race.order),

@@ -14,20 +14,18 @@ enum { FIRST_BLOCKS = 54 };
 
 /* Over blocks. */
 typedef struct bias_sums {
-    aur_moments products;              /* moments of the blocks' mean products */
-    aur_moments squares;               /* and of the squares of the replicas' mean */
-    double replicas[AUR_REPLICAS_MAX]; /* sums of products of each replica with the others */
+    aur_moments products; /* of the blocks' mean products of two replicas */
+    double noise; /* sum of the blocks' variances of these means, by the spread of the replicas alone */
 } bias_sums;
 
-/* The mean over a block's pixels of the differences in each replica: d[replica][channel]. Differences are
- * linear only in small errors, and noise is not small: they are linearised. */
-static void differences_of(const aur_replicas *replicas, size_t first, aur_weighing weighing,
-                           const double (*values)[3], size_t count, const size_t *pixels,
-                           double d[AUR_REPLICAS_MAX][3]) {
+/* Adds the mean over a block's pixels of the differences in each replica to d[replica][channel]. Differences
+ * are linear only in small errors, and noise is not small: they are linearised. */
+static void add_differences(const aur_replicas *replicas, size_t first, aur_weighing weighing,
+                            const double (*values)[3], size_t count, const size_t *pixels,
+                            double d[AUR_REPLICAS_MAX][3]) {
     const double step = 1e-3;
     double light[AUR_REPLICAS_MAX * AUR_BLOCK_PIXELS][3];
     aur_replicas_read(replicas, (const size_t[2]){pixels[0], pixels[count - 1]}, first, count, light);
-    memset(d, 0, replicas->count * sizeof *d);
     for (size_t p = 0; p < count; ++p) {
         double errors[AUR_REPLICAS_MAX][3], differences[AUR_REPLICAS_MAX][3];
         for (size_t r = 0; r < replicas->count; ++r)
@@ -41,23 +39,26 @@ static void differences_of(const aur_replicas *replicas, size_t first, aur_weigh
     }
 }
 
+/* Noise of covariance C in each of n replicas gives the mean of their n (n - 1) / 2 products a variance of
+ * tr C^2 by one of them. The estimate of tr C^2 from n - 1 degrees of freedom is at least its factor for one
+ * channel too large, which is taken away. */
 static void add_block(size_t count, double d[AUR_REPLICAS_MAX][3], bias_sums *sums) {
-    const double others = (double)(count - 1);
-    double all[3] = {0.0}, products = 0.0, square = 0.0;
+    const double n = (double)count, degrees = n - 1.0;
+    double mean[3] = {0.0}, squares = 0.0, covariance[3][3] = {{0.0}}, spread = 0.0;
     for (size_t r = 0; r < count; ++r)
         for (size_t c = 0; c < 3; ++c)
-            all[c] += d[r][c];
-    for (size_t r = 0; r < count; ++r) {
-        double product = 0.0;
-        for (size_t c = 0; c < 3; ++c)
-            product += d[r][c] * (all[c] - d[r][c]) / others;
-        sums->replicas[r] += product;
-        products += product / (double)count;
-    }
-    for (size_t c = 0; c < 3; ++c)
-        square += all[c] * all[c] / (double)(count * count);
-    aur_moments_add(&sums->products, products);
-    aur_moments_add(&sums->squares, square);
+            mean[c] += d[r][c] / n;
+    for (size_t r = 0; r < count; ++r)
+        for (size_t c = 0; c < 3; ++c) {
+            squares += d[r][c] * d[r][c];
+            for (size_t k = 0; k < 3; ++k)
+                covariance[c][k] += (d[r][c] - mean[c]) * (d[r][k] - mean[k]) / degrees;
+        }
+    for (size_t i = 0; i < 9; ++i)
+        spread += covariance[i / 3][i % 3] * covariance[i / 3][i % 3];
+    const double of_mean = mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2];
+    aur_moments_add(&sums->products, (n * n * of_mean - squares) / (n * degrees));
+    sums->noise += spread / (1.0 + 2.0 / degrees) * 2.0 / (n * degrees);
 }
 
 static bool has_samples(const aur_replicas *replicas, size_t count, const size_t *pixels) {
@@ -68,59 +69,43 @@ static bool has_samples(const aur_replicas *replicas, size_t count, const size_t
     return true;
 }
 
-static aur_bias finish(const bias_sums *sums, size_t replica_count, size_t all, double confidence) {
-    const double blocks = (double)sums->products.count, count = (double)replica_count;
-    aur_moments replicas = {0};
-    for (size_t r = 0; r < replica_count; ++r)
-        aur_moments_add(&replicas, sums->replicas[r] / blocks);
-    const double left_out = fmax(1.0 - blocks / (double)all, 0.0); /* of the image's blocks */
-    /* Leaving out replica r changes the mean to (count mean - 2 T_r) / (count - 2), of its products T_r. */
-    const double change = 2.0 / (count - 2.0);
+static aur_bias finish(const bias_sums *sums, double confidence) {
+    const double blocks = (double)sums->products.count;
+    const size_t degrees = sums->products.count > 1 ? sums->products.count - 1 : 1;
+    const double width = aur_student_quantile(degrees, 0.5 * (1.0 + confidence));
     aur_bias bias = {.estimate = sums->products.mean / 3.0,
-                     .of_replicas =
-                         (count - 1.0) * change * aur_moments_interval(&replicas, confidence) / 3.0,
-                     .of_blocks = sqrt(left_out) * aur_moments_interval(&sums->products, confidence) / 3.0};
-    const double half = fmax(bias.of_replicas, bias.of_blocks);
-    bias.low = fmax(bias.estimate - half, 0.0);
-    bias.high = fmax(bias.estimate, 0.0) + half;
-    const double square = sums->squares.mean / 3.0;
-    const double of_squares = aur_moments_interval(&sums->squares, confidence) / 3.0;
-    if (square + of_squares < bias.high) {
-        bias.high = square + of_squares;
-        bias.of_replicas = square - fmax(bias.estimate, 0.0);
-        bias.of_blocks = of_squares;
-    }
+                     .of_noise = width * sqrt(sums->noise) / blocks / 3.0,
+                     .half = width * aur_moments_standard_error(&sums->products) / 3.0};
+    bias.half = fmax(bias.half, bias.of_noise);
+    bias.low = fmax(bias.estimate - bias.half, 0.0);
+    bias.high = fmax(bias.estimate, 0.0) + bias.half;
     return bias;
 }
 
-aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
+aur_bias aur_replicas_bias(const aur_replicas *corrections, const aur_replicas *shared, aur_weighing weighing,
                            const double (*values)[3], double confidence) {
-    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const aur_film_layout *const layout = &aur_render_film(corrections->renders[0])->layout;
     const size_t side = AUR_BLOCK_SIDE, width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
     const aur_blocks blocks = {width, height, ((width + side - 1) / side) * ((height + side - 1) / side),
                                NULL};
-    bias_sums sums = {.products = {0}};
-    for (size_t block = 0; block < blocks.count && layout->channel_count >= first + 3; ++block) {
+    bias_sums sums = {.noise = 0.0};
+    for (size_t block = 0; block < blocks.count; ++block) {
         size_t pixels[AUR_BLOCK_PIXELS];
-        double d[AUR_REPLICAS_MAX][3];
+        double d[AUR_REPLICAS_MAX][3] = {{0.0}};
         const size_t count = aur_blocks_pixels(&blocks, block, pixels);
-        if (!has_samples(replicas, count, pixels))
+        if (!has_samples(corrections, count, pixels))
             continue;
-        differences_of(replicas, first, weighing, values, count, pixels, d);
-        add_block(replicas->count, d, &sums);
+        add_differences(corrections, 0, weighing, values, count, pixels, d);
+        if (shared != NULL)
+            add_differences(shared, 3, weighing, values, count, pixels, d);
+        add_block(corrections->count, d, &sums);
     }
-    return sums.products.count > 0 ? finish(&sums, replicas->count, blocks.count, confidence)
-                                   : (aur_bias){.estimate = 0.0};
+    return sums.products.count > 0 ? finish(&sums, confidence) : (aur_bias){.estimate = 0.0};
 }
 
-aur_bias aur_bias_of_both(aur_bias a, aur_bias b) {
-    const double least = fmax(sqrt(a.low) - sqrt(b.high), sqrt(b.low) - sqrt(a.high));
-    const double most = sqrt(a.high) + sqrt(b.high);
-    return (aur_bias){.estimate = a.estimate + b.estimate,
-                      .low = least > 0.0 ? least * least : 0.0,
-                      .high = most * most,
-                      .of_blocks = a.of_blocks,
-                      .of_replicas = a.of_replicas};
+double aur_bias_with_noise(const aur_bias *bias, double noise, double noise_high) {
+    const double square = noise * noise, half = noise_high * noise_high - square;
+    return sqrt(square + bias->high - bias->half + sqrt(half * half + bias->half * bias->half));
 }
 
 aur_result aur_corrections_create(aur_renderer *renderer, const aur_render_options *options,

@@ -5,29 +5,31 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#include "render/replicas/replicas.h"
 #include "render/film/blocks.h"
+#include "render/replicas/replicas.h"
 
 /* Squares of root mean square errors in the units of a measure. */
 typedef struct aur_bias {
     double estimate;  /* unbiased, so it may be negative */
     double low, high; /* of its interval, from 0 on; an estimate below 0 does not lower its upper end */
-    double of_blocks, of_replicas; /* halves of the interval by what varies: blocks and replicas */
+    double half;      /* half the interval's width by what varies over blocks: noise and the bias itself */
+    double of_noise;  /* and by the noise of samples alone */
 } aur_bias;
 
-/* Estimates the bias of replicas whose channels `first` to `first` + 2 have it as their mean; blocks of 4 x 4
- * pixels without samples are excluded. With D_r the mean difference of a block in the r-th replica, the mean
- * of D_r D_s over r != s has the square of the block's bias as its expectation, for any noise. The interval
- * is the wider of two. One is Student's t over the replicas by the jackknife (right if the bias is larger
- * than the noise, too wide if it is smaller); the other is over the blocks. Its upper end is that of the
- * square of the replicas' mean, if that is smaller: the square of the bias of these replicas' own maps, whose
- * noise no number of samples removes, and of the samples' noise, which they do. `values` are the image's. */
-aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
+/* Estimates the bias of replicas that have it as the mean of `corrections`, plus that of channels 3 to 5 of
+ * `shared`, if not NULL; blocks of 4 x 4 pixels without corrections are excluded. With D_r the mean
+ * difference of a block in the r-th replica, the mean of D_r D_s over r != s has the square of the block's
+ * bias as its expectation, for any noise. The interval is Student's t over the blocks, and at least as wide
+ * as noise of the replicas' spread makes it: rare large values seldom meet in two replicas. What replica r's
+ * map adds to the bias b, m_r, varies in all blocks together: given the maps, the expectation is (b + mean of
+ * m_r)^2 less the square of the standard error of the mean of m_r, which the spread of the replicas has in
+ * it. So the sum of both is right for these maps. `values` are the image's. */
+aur_bias aur_replicas_bias(const aur_replicas *corrections, const aur_replicas *shared, aur_weighing weighing,
                            const double (*values)[3], double confidence);
 
-/* The bound of the sum of two biases that add up pixel by pixel, by the triangle inequality. The estimate
- * assumes that they are independent. */
-aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
+/* The upper end of the interval of noise and bias together, from the noise's estimate and upper end: both are
+ * independent, so the widths are added in squares. A bias without a half is certain. */
+double aur_bias_with_noise(const aur_bias *bias, double noise, double noise_high);
 
 /* Images of corrections in some blocks of the image: paths' radiance less the map's. */
 typedef struct aur_corrections {

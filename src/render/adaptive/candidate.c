@@ -124,11 +124,19 @@ static double factor_to_error(const aur_candidate *candidate, double error) {
  * plan further. */
 static const double FIRST_ERROR = 6.0;
 
+/* The next level below the bound, but not below the goal. */
+static double next_noise(const aur_candidate *candidate, const aur_goal *goal) {
+    double square = AUR_NOISE_LEVEL * goal->error * goal->error;
+    while (square > goal->noise * goal->noise && candidate->bound * candidate->bound <= square)
+        square *= AUR_NEXT_NOISE_LEVEL;
+    return fmax(sqrt(square), goal->noise);
+}
+
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal) {
     const double growth = 1.5, first = FIRST_ERROR * goal->error;
     double factor = 1.0 / growth;
     if (goal->error > 0.0)
-        factor = factor_to_error(candidate, candidate->bound > first ? first : goal->noise);
+        factor = factor_to_error(candidate, candidate->bound > first ? first : next_noise(candidate, goal));
     if (goal->rays > 0)
         factor = fmax(factor, fmin(aur_replicas_rays(&candidate->replicas) / (double)goal->rays, 1.0));
     return factor;

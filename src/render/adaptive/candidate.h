@@ -67,12 +67,17 @@ typedef struct aur_goal {
     uint64_t rays;       /* for this candidate's samples */
 } aur_goal;
 
+/* Levels of the noise, as squares relative to the target error's, at which rounds pause on their way to the
+ * goal. There it is known whether the bias needs more room, which a lower level gives. */
+#define AUR_NOISE_LEVEL (15.0 / 16)
+#define AUR_NEXT_NOISE_LEVEL 0.8
+
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
- * end comes to six times that, then to what the bias leaves of it, and below it by what the error
- * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
- * more than that: repeated tests on nearly the same samples bias the stopping time. Without an error half as
- * many samples again are taken, or fewer where the rays are spent then. It depends on the candidate and its
- * goal alone, so that a chosen candidate can be rendered again by itself. */
+ * end comes to six times that, then to each level, then to what the bias leaves, and below it by what the
+ * error seen varies, so that the last round is seldom followed by another. One that follows lowers the error
+ * by more than that: repeated tests on nearly the same samples bias the stopping time. Without an error half
+ * as many samples again are taken, or fewer where the rays are spent then. It depends on the candidate and
+ * its goal alone, so that a chosen candidate can be rendered again by itself. */
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
 
 /* The round planned last leads to the error of the goal, and is seldom followed by another. */

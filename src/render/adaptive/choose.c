@@ -9,8 +9,12 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-/* The largest bias, relative to the target error: its square leaves three quarters to the noise. */
+/* The largest square of a bias, relative to the target error's: less is left to the noise than a map is
+ * worth.
+ */
 static const double BIAS_PART = 0.5;
+/* The least square of the noise. */
+static const double LEAST_LEVEL = 0.1;
 /* The rays of corrections during the rounds, relative to the candidate's; and relative to a budget of rays.
  */
 static const double CORRECTIONS_PART = 0.05;
@@ -69,7 +73,7 @@ uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive) {
 
 double aur_adaptive_bias_room(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
-    return aur_race_gathers(adaptive->row) ? BIAS_PART * target->error : target->bias;
+    return aur_race_gathers(adaptive->row) ? target->error * sqrt(1.0 - adaptive->level) : target->bias;
 }
 
 aur_goal aur_adaptive_goal(const aur_adaptive *adaptive) {
@@ -116,8 +120,8 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     char *const text = aur_race_integrator(row, adaptive->path, photons, 0);
     adaptive->row = row;
     adaptive->photons = photons;
+    adaptive->level = AUR_NOISE_LEVEL;
     memset(adaptive->bias, 0, sizeof adaptive->bias);
-    adaptive->shared_rounds = 0;
     if (text == NULL)
         return aur_fail_memory(error);
     adaptive->open = true; /* nothing is saved while replicas and their maps are created */
@@ -170,24 +174,14 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
 
 /* --- bias */
 
-/* By the measure of the candidate's weights. Irradiance shared by neighbours adds a separate bias, which
- * changes only with rounds: the one by the target's measure is computed once in each. */
+/* By the measure of the candidate's weights; irradiance shared by neighbours adds a bias. */
 static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
     const aur_candidate *const candidate = &adaptive->candidate;
-    const double confidence = adaptive->target.confidence;
-    const aur_weighing weighing = {measure, candidate->weights};
-    const double(*const values)[3] = (const double(*)[3])candidate->values;
-    const bool shares = aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS;
-    const bool known = measure == adaptive->target.measure && adaptive->shared_rounds == candidate->rounds;
-    const aur_bias bias = aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
-    const aur_bias shared =
-        shares && !known ? aur_replicas_bias(&candidate->replicas, COLOURS, weighing, values, confidence)
-                         : adaptive->shared;
-    adaptive->bias[measure] = shares ? aur_bias_of_both(bias, shared) : bias;
-    if (measure == adaptive->target.measure) {
-        adaptive->shared = shared;
-        adaptive->shared_rounds = candidate->rounds;
-    }
+    const aur_film_layout *const layout = &aur_render_film(candidate->replicas.renders[0])->layout;
+    adaptive->bias[measure] = aur_replicas_bias(
+        &adaptive->corrections.replicas, layout->channel_count >= 2 * COLOURS ? &candidate->replicas : NULL,
+        (aur_weighing){measure, candidate->weights}, (const double(*)[3])candidate->values,
+        adaptive->target.confidence);
 }
 
 void aur_adaptive_bound_others(aur_adaptive *adaptive) {
@@ -211,21 +205,11 @@ void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
 static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     aur_corrections *const corrections = &adaptive->corrections;
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const bool more_samples =
-        bias->of_blocks <= bias->of_replicas || corrections->rendered == corrections->blocks.count;
+    const bool more_samples = bias->half * bias->half <= 2.0 * bias->of_noise * bias->of_noise ||
+                              corrections->rendered == corrections->blocks.count;
     const aur_result result = aur_corrections_grow(corrections, more_samples, &adaptive->cancelled, error);
     bound_bias_by(adaptive, adaptive->target.measure);
     return result;
-}
-
-/* The most rays for which corrections are worthwhile: a fraction of the candidate's; at the end, half of
- * those of path tracing, or as many as the image's if these are not known. */
-static double most_corrections(const aur_adaptive *adaptive, bool last) {
-    const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
-    if (last)
-        return fmax(0.5 * adaptive->race.entries[AUR_RACE_PATH].need, rays);
-    const double reserve = adaptive->target.rays > 0 ? (double)aur_adaptive_reserve(adaptive) : INFINITY;
-    return fmin(CORRECTIONS_PART * rays, reserve);
 }
 
 static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *error) {
@@ -233,7 +217,7 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     aur_race_entry *const entry = &race->entries[adaptive->row];
     entry->out = true;
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
-             too_large ? "the bias of its photon map is more than half of the target error"
+             too_large ? "the bias of its photon map is too large for the target error"
                        : "more rays are needed to bound the bias of its photon map than are saved");
     size_t rank = adaptive->rank + 1;
     while (rank + 1 < race->order_count && aur_race_gathers(race->order[rank]) && !too_large)
@@ -241,38 +225,88 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
-/* The square of the largest bias. What the noise leaves at the end may be more than was reserved. */
-static double most_bias(const aur_adaptive *adaptive, bool last) {
-    const double error = adaptive->target.error, bound = adaptive->candidate.bound;
-    const double reserved = pow(BIAS_PART * error, 2.0);
-    return last && bound < error ? fmax(reserved, error * error - bound * bound) : reserved;
+/* What is left to do: the squares of the noise's bound and of half the bias's interval fall in proportion to
+ * one over their rays. At the least work, the square of the error is divided between both in proportion to
+ * the roots of rays times squares. */
+typedef struct rest_of_work {
+    double half; /* of the bias's interval, then */
+    double rays; /* of samples and corrections until then; INFINITY: the bias is larger than the error */
+} rest_of_work;
+
+static rest_of_work find_rest(const aur_adaptive *adaptive) {
+    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
+    const double bound = adaptive->candidate.bound, noise = bound * bound;
+    const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
+    const double corrections = aur_replicas_rays(&adaptive->corrections.replicas);
+    const double square = adaptive->target.error * adaptive->target.error - fmax(bias->estimate, 0.0);
+    const double of_noise = sqrt(rays * noise), of_bias = sqrt(corrections * bias->half);
+    const double best = fmin(square * of_noise / (of_noise + of_bias), noise), half = square - best;
+    if (!(square > 0.0))
+        return (rest_of_work){0.0, INFINITY};
+    return (rest_of_work){half,
+                          rays * (noise / best - 1.0) + corrections * fmax(bias->half / half - 1.0, 0.0)};
+}
+
+static bool is_met(const aur_adaptive *adaptive) {
+    const size_t measure = adaptive->target.measure;
+    return aur_bias_with_noise(&adaptive->bias[measure], adaptive->candidate.intervals[measure].estimate,
+                               adaptive->candidate.bound) <= adaptive->target.error;
+}
+
+/* The noise leaves too little to the bias: more corrections if these are behind, else less noise. Rejects the
+ * candidate if path tracing takes fewer rays from the start than are left here. */
+static aur_result make_room(aur_adaptive *adaptive, bool *again, aur_error *error) {
+    const double bound = adaptive->candidate.bound / adaptive->target.error;
+    const rest_of_work rest = find_rest(adaptive);
+    const double least =
+        fmax(adaptive->race.entries[AUR_RACE_PATH].need, aur_replicas_rays(&adaptive->candidate.replicas));
+    if (!(rest.rays <= least) || adaptive->level < LEAST_LEVEL) {
+        *again = true;
+        return reject(adaptive, false, error);
+    }
+    if (adaptive->bias[adaptive->target.measure].half > rest.half)
+        return correct(adaptive, error);
+    while (adaptive->level >= bound * bound)
+        adaptive->level *= AUR_NEXT_NOISE_LEVEL;
+    *again = true;
+    return AUR_OK;
+}
+
+/* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
+static bool are_corrections_due(const aur_adaptive *adaptive) {
+    const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
+    const double reserve = adaptive->target.rays > 0 ? (double)aur_adaptive_reserve(adaptive) : INFINITY;
+    const bool bounded = adaptive->target.error > 0.0;
+    if (adaptive->corrections.steps == 0)
+        return true;
+    return 2.0 * aur_replicas_rays(&adaptive->corrections.replicas) <=
+               fmin(CORRECTIONS_PART * rays, reserve) &&
+           !(bounded && adaptive->bias[adaptive->target.measure].half <= find_rest(adaptive).half);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const double room = most_bias(adaptive, last);
-    const bool bounded = adaptive->target.error > 0.0;
-    bool grown = false;
+    const double square = adaptive->target.error * adaptive->target.error;
+    aur_result result = AUR_OK;
     *again = false;
     adaptive->unchecked = true;
     if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_black(&adaptive->candidate)) {
         adaptive->unchecked = false;
         return AUR_OK;
     }
-    for (bool first = adaptive->corrections.steps == 0;; first = false) {
-        const bool done = bounded && !first && bias->high <= room;
-        const double most = most_corrections(adaptive, bounded && last && !done);
-        if (!first && (done || 2.0 * aur_replicas_rays(&adaptive->corrections.replicas) > most))
-            break;
-        const aur_result result = correct(adaptive, error);
-        if (result != AUR_OK)
-            return result;
-        grown = true;
-    }
-    if (!grown && !last) /* by the values of the round; its last check has nothing new */
+    if (!last && adaptive->corrections.steps > 0) /* by the values of the round */
         bound_bias_by(adaptive, adaptive->target.measure);
+    while (result == AUR_OK && are_corrections_due(adaptive))
+        result = correct(adaptive, error);
+    if (result == AUR_OK && square > 0.0 && bias->low > BIAS_PART * square) {
+        *again = true;
+        result = reject(adaptive, true, error);
+    }
+    const bool ends = square > 0.0 && last && adaptive->candidate.bound <= aur_adaptive_goal(adaptive).noise;
+    while (result == AUR_OK && !*again && ends && !is_met(adaptive))
+        result = make_room(adaptive, again, error);
+    if (result != AUR_OK)
+        return result;
     adaptive->unchecked = false;
-    const bool too_large = bounded && bias->low > room;
-    *again = too_large || (bounded && last && bias->high > room);
-    return *again ? reject(adaptive, too_large, error) : AUR_OK;
+    return AUR_OK;
 }

@@ -180,9 +180,8 @@ static void test_choice(void **state) {
     assert_same_image(a, b);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
     assert_non_null(strstr(aur_adaptive_integrator(a), ",max_depth=-1"));
-    /* Half of the error is reserved for bias, which leaves its three quarters of the square to the noise; the
-     * bias may also be what the noise leaves. */
-    assert_true(report.bias_room == 0.5 * target.error);
+    /* At least a sixteenth of the square of the error is left to the bias. */
+    assert_true(report.bias_room >= 0.25 * target.error && report.bias_room < target.error);
     assert_true(report.bias_high > 0.0 && report.error_high <= target.error);
     /* By every measure the noise is the same, and what bounds the bias is added. */
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
