@@ -147,6 +147,14 @@ void aur_spread_set_targets(const aur_film *film, size_t index, const aur_film_t
     }
 }
 
+static bool has_samples(const aur_film *film, const aur_tile *tile) {
+    const uint32_t *const given = film->spread->given + first_cell(film, tile);
+    uint32_t any = 0;
+    for (size_t cell = 0; cell < film->spread->tile_cells; ++cell)
+        any |= given[cell];
+    return any != 0;
+}
+
 aur_result aur_spread_open_tile(const aur_film *film, aur_tile *tile, aur_film_before *before) {
     const aur_spread *const spread = film->spread;
     const size_t pixels = tile->stride * (tile->y1 - tile->y0);
@@ -157,7 +165,10 @@ aur_result aur_spread_open_tile(const aur_film *film, aur_tile *tile, aur_film_b
     before->cells = spread->moments != NULL ? malloc(bytes) : NULL;
     if (tile->sums == NULL || tile->counts == NULL || (spread->moments != NULL && before->cells == NULL))
         return AUR_ERROR_MEMORY;
-    memcpy(tile->sums, &spread->sums[first_cell(film, tile) * spread->cell_values], bytes);
+    if (has_samples(film, tile))
+        memcpy(tile->sums, &spread->sums[first_cell(film, tile) * spread->cell_values], bytes);
+    else /* pages that were never written are not read either */
+        memset(tile->sums, 0, bytes);
     if (before->cells != NULL)
         memcpy(before->cells, tile->sums, bytes);
     for (size_t k = 0; k < pixels; ++k) {
