@@ -19,6 +19,18 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
     return aur_scene_occluded_each(plan->scene, packet);
 }
 
+/* What a packet's rays hit. */
+typedef struct gather_hits {
+    uint32_t found, plain; /* lanes: with a hit, and those of plain_lanes */
+    uint32_t element[AUR_PACKET_SIZE];
+    uint32_t texel[AUR_PACKET_SIZE]; /* of the map; on curved shapes another one of the element */
+    aur_hit hits[AUR_PACKET_SIZE];   /* those of lanes that are not plain; and their surfaces */
+    aur_surface surfaces[AUR_PACKET_SIZE];
+    /* Samples of lights for lobes that the map does not cover; and the seeds after that. */
+    aur_light_lanes lights;
+    uint64_t hash[AUR_PACKET_SIZE];
+} gather_hits;
+
 /* --- a continued ray */
 
 /* A path of mirrors and rough facets, and how it came to where it is. */
@@ -102,12 +114,35 @@ static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const
         aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, radiance));
 }
 
-/* Adds a light sample reflected by the sampled lobe, MIS-weighted against the continued ray. */
-static void add_sampled_light(const aur_gather_plan *plan, const aur_shading *shading, gather_chain *chain) {
-    float u[3];
+/* Two edges lead to a surface on a chain, and one per link; a photon adds at least one more. */
+static bool is_deeper(const aur_gather_plan *plan, uint32_t length) {
+    return length + 3 <= plan->policy.max_depth;
+}
+
+/* Whether lights are sampled at a surface on a chain, for its sampled lobes. */
+static bool samples_lights(const aur_gather_plan *plan, unsigned kinds, uint32_t length) {
+    return (kinds & AUR_SCATTERS_SAMPLED) != 0 && is_deeper(plan, length) &&
+           plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters &&
+           aur_scene_emitter_count(plan->scene) > 0;
+}
+
+/* Adds a light sample reflected by the sampled lobe, MIS-weighted against the continued ray. At the first
+ * surface it is drawn already. */
+static void add_sampled_light(const aur_gather_plan *plan, const aur_shading *shading, const gather_hits *all,
+                              gather_chain *chain) {
+    aur_light_sample light;
+    if (chain->length == 0) {
+        light = aur_light_lane(&all->lights, chain->lane);
+        chain->hash = all->hash[chain->lane];
+    } else {
+        float u[3];
+        const aur_light_reference reference = aur_shading_reference(shading);
+        aur_draw_units(&chain->hash, u);
+        if (!aur_light_sample_direct(plan->scene, &reference, u, &light))
+            return;
+    }
     aur_shadow shadow;
-    aur_draw_units(&chain->hash, u);
-    if (aur_vertex_draw_light(plan->scene, shading, AUR_VERTEX_UNMAPPED, AUR_VERTEX_ONE_EACH, u, &shadow) &&
+    if (aur_vertex_light(shading, AUR_VERTEX_UNMAPPED, AUR_VERTEX_ONE_EACH, &light, &shadow) &&
         !aur_scene_occluded(plan->scene, &shadow.ray))
         chain->path.radiance =
             aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, shadow.radiance));
@@ -132,26 +167,23 @@ static bool scatter(const aur_shading *shading, float distance, gather_chain *ch
     return true;
 }
 
-/* `hit` is the ray's first hit, on `surface`; or NULL if it left the scene. */
-static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const aur_hit *hit,
-                                 const aur_surface *surface, waiting_paths *waiting, aur_gather_rays *rays,
-                                 aur_counters *counters) {
+static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const gather_hits *all,
+                                 waiting_paths *waiting, aur_gather_rays *rays, aur_counters *counters) {
     const aur_scene *const scene = plan->scene;
-    const bool samples_lights =
-        plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
+    const aur_hit *hit = aur_has_lane(all->found, chain.lane) ? &all->hits[chain.lane] : NULL;
+    const aur_surface *surface = &all->surfaces[chain.lane];
     aur_hit next;
     aur_surface next_surface;
     while (hit != NULL) {
         const aur_shading shading =
             aur_shading_at(surface, aur_vector_scale(chain.path.ray.direction, -1.0f));
         const unsigned kinds = aur_bsdf_scatters(surface->bsdf, shading.view.z);
-        /* Two edges lead here and one per link of the chain; a photon adds at least one more. */
-        const bool deeper = chain.length + 3 <= plan->policy.max_depth;
+        const bool deeper = is_deeper(plan, chain.length);
         add_emission(plan, surface, &chain);
         if (deeper && (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0)
             add_scattered(plan, hit, surface, waiting, rays, &chain);
-        if (deeper && (kinds & AUR_SCATTERS_SAMPLED) != 0 && samples_lights)
-            add_sampled_light(plan, &shading, &chain);
+        if (samples_lights(plan, kinds, chain.length))
+            add_sampled_light(plan, &shading, all, &chain);
         if (!deeper || (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 ||
             !scatter(&shading, hit->distance, &chain, counters))
             return chain.path.radiance;
@@ -228,15 +260,6 @@ static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packe
 
 /* --- what is read of the sixteen hits comes from memory together */
 
-/* What the packet's rays hit. */
-typedef struct gather_hits {
-    uint32_t found, plain; /* lanes: with a hit, and those of plain_lanes */
-    uint32_t element[AUR_PACKET_SIZE];
-    uint32_t texel[AUR_PACKET_SIZE]; /* of the map; on curved shapes another one of the element */
-    aur_hit hits[AUR_PACKET_SIZE];   /* those of lanes that are not plain; and their surfaces */
-    aur_surface surfaces[AUR_PACKET_SIZE];
-} gather_hits;
-
 /* Sets texels, and fetches their light. */
 static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
                         gather_hits *all) {
@@ -256,6 +279,33 @@ static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, c
         if (map->member_first != NULL)
             __builtin_prefetch(&map->member_first[light]);
     }
+}
+
+/* Draws a point on a light for each surface that needs one. */
+static void draw_lights(const aur_gather_plan *plan, const aur_gather_rays *rays, gather_hits *all) {
+    aur_lane_vectors positions = {0}, normals = {0};
+    aur_lane_numbers choice = {0}, u = {0}, v = {0};
+    uint32_t drawn = 0;
+    for (uint32_t rest = all->found & ~all->plain; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_vector direction = aur_packet_ray(&rays->packet, k).direction;
+        const aur_shading shading = aur_shading_at(&all->surfaces[k], aur_vector_scale(direction, -1.0f));
+        if (!samples_lights(plan, aur_bsdf_scatters(all->surfaces[k].bsdf, shading.view.z), 0))
+            continue;
+        const aur_light_reference reference = aur_shading_reference(&shading);
+        float units[3];
+        all->hash[k] = aur_gather_rays_hash(rays, k);
+        aur_draw_units(&all->hash[k], units);
+        aur_lane_set(&positions, k, reference.position);
+        aur_lane_set(&normals, k, reference.normal);
+        choice[k] = units[0];
+        u[k] = units[1];
+        v[k] = units[2];
+        drawn |= 1u << k;
+    }
+    const aur_light_references references = {&positions, &normals};
+    if (drawn != 0)
+        aur_light_lanes_each(plan->scene, drawn, &references, choice, u, v, &all->lights);
 }
 
 static void find_hits(const aur_gather_plan *plan, const aur_packet *packet, gather_hits *all) {
@@ -283,6 +333,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
     waiting_paths waiting;
     waiting.count = 0;
     find_hits(plan, &rays->packet, &all);
+    draw_lights(plan, rays, &all);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;
@@ -304,8 +355,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
                                         .lane = lane,
                                         .hash = aur_gather_rays_hash(rays, lane),
                                         .specular = true};
-            radiance = chain_radiance(plan, chain, hits ? &all.hits[lane] : NULL, &all.surfaces[lane],
-                                      &waiting, rays, counters);
+            radiance = chain_radiance(plan, chain, &all, &waiting, rays, counters);
         }
         rays->radiance[0][lane] += radiance.x;
         rays->radiance[1][lane] += radiance.y;

@@ -40,6 +40,10 @@ typedef struct aur_emitter_descriptor {
      */
     bool (*lanes)(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
                   const float *u, const float *v, aur_light_lanes *drawn);
+    /* `sample` for lanes that chose lights of this kind as a whole, NULL for the others. Returns the lanes
+     * sampled, bit-identically to single samples; the others become undefined. May be NULL. */
+    uint32_t (*several)(const aur_emitter *const *emitters, const aur_light_references *references,
+                        const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
     void (*release)(void *data); /* frees what emitter->data points to; NULL: nothing */

@@ -7,15 +7,6 @@ static aur_light_reference reference_of(const aur_light_references *references, 
                                  aur_lane_vector(references->normal, lane)};
 }
 
-static void light_lane(const aur_scene *scene, const aur_light_references *references, const float u[3],
-                       size_t lane, aur_light_lanes *lights) {
-    const aur_light_reference reference = reference_of(references, lane);
-    aur_light_sample one;
-    if (!aur_light_sample_direct(scene, &reference, u, &one))
-        one = (aur_light_sample){0};
-    aur_light_lane_set(lights, lane, &one);
-}
-
 /* All lanes by vector code, for a light that they chose with the same probability; false: not supported. */
 static bool sample_together(const aur_emitter *emitter, uint32_t lanes,
                             const aur_light_references *references, const float *u, const float *v,
@@ -46,18 +37,6 @@ static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *c
     return far;
 }
 
-void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
-                          const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
-    const bool chooses = aur_light_chooses(scene);
-    const uint32_t far = far_lanes(scene, lanes, choice, u, v);
-    if (far != 0)
-        sample_together(scene->environments[0], far, references, u, v, lights);
-    for (uint32_t rest = lanes & ~far; rest != 0; rest &= rest - 1) {
-        const size_t k = (size_t)__builtin_ctz(rest);
-        light_lane(scene, references, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k, lights);
-    }
-}
-
 /* The choices of sixteen lanes. */
 typedef struct light_choices {
     aur_chosen_light lights[AUR_PACKET_SIZE];
@@ -68,12 +47,13 @@ typedef struct light_choices {
 static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                               const float *choice, const float *u, const float *v, light_choices *choices,
                               aur_light_lanes *lights) {
+    const bool chooses = aur_light_chooses(scene);
     uint32_t lit = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
         const aur_light_reference reference = reference_of(references, k);
         float *const numbers = choices->rest[k];
-        numbers[0] = choice[k];
+        numbers[0] = chooses ? choice[k] : 0.5f;
         numbers[1] = u[k];
         numbers[2] = v[k];
         if (aur_light_choose(scene, &reference, numbers, &choices->lights[k]))
@@ -83,6 +63,56 @@ static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_
     }
     return lit;
 }
+
+static void sample_one(const aur_scene *scene, size_t lane, const aur_light_references *references,
+                       const light_choices *choices, aur_light_lanes *lights) {
+    const aur_light_reference reference = reference_of(references, lane);
+    aur_light_sample one;
+    if (!aur_light_sample_chosen(scene, &choices->lights[lane], &reference, choices->rest[lane], &one))
+        one = (aur_light_sample){0};
+    aur_light_lane_set(lights, lane, &one);
+}
+
+/* --- each as a single sample */
+
+/* Samples lights of one kind together, if it can. Returns the lanes sampled. */
+static uint32_t sample_kind(uint32_t lanes, const aur_light_references *references,
+                            const light_choices *choices, const float *u, const float *v,
+                            aur_light_lanes *lights) {
+    const aur_emitter *emitters[AUR_PACKET_SIZE] = {NULL};
+    const aur_emitter_descriptor *kind = NULL;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_emitter *const emitter = choices->lights[k].emitter;
+        if (emitter->descriptor->several == NULL || (kind != NULL && kind != emitter->descriptor))
+            continue;
+        kind = emitter->descriptor;
+        emitters[k] = emitter;
+    }
+    aur_light_lanes drawn;
+    const uint32_t sampled = kind != NULL ? kind->several(emitters, references, u, v, &drawn) : 0;
+    for (uint32_t rest = sampled; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        aur_light_sample one = aur_light_lane(&drawn, k);
+        one.pdf *= choices->lights[k].probability;
+        aur_light_lane_set(lights, k, &one);
+    }
+    return sampled;
+}
+
+void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                          const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
+    const uint32_t far = far_lanes(scene, lanes, choice, u, v);
+    if (far != 0)
+        sample_together(scene->environments[0], far, references, u, v, lights);
+    light_choices choices;
+    const uint32_t chosen = choose_lights(scene, lanes & ~far, references, choice, u, v, &choices, lights);
+    const uint32_t together = sample_kind(chosen, references, &choices, u, v, lights);
+    for (uint32_t rest = chosen & ~together; rest != 0; rest &= rest - 1)
+        sample_one(scene, (size_t)__builtin_ctz(rest), references, &choices, lights);
+}
+
+/* --- up to rounding */
 
 /* Samples the light that all of `lanes` chose: by vector code if there is any. Also for a single lane, so
  * that a lane's bits do not depend on the others. */
@@ -96,16 +126,12 @@ static void sample_light(const aur_scene *scene, uint32_t lanes, const aur_light
                           emitter->descriptor->lanes(emitter, lanes, references, u, v, &drawn);
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = (size_t)__builtin_ctz(lanes);
-        const aur_chosen_light *const chosen = &choices->lights[k];
-        aur_light_sample one;
-        if (together) {
-            one = aur_light_lane(&drawn, k);
-            one.pdf *= chosen->probability;
-        } else {
-            const aur_light_reference reference = reference_of(references, k);
-            if (!aur_light_sample_chosen(scene, chosen, &reference, choices->rest[k], &one))
-                one = (aur_light_sample){0};
+        if (!together) {
+            sample_one(scene, k, references, choices, lights);
+            continue;
         }
+        aur_light_sample one = aur_light_lane(&drawn, k);
+        one.pdf *= choices->lights[k].probability;
         aur_light_lane_set(lights, k, &one);
     }
 }

@@ -2,6 +2,7 @@
 #include "scene_text.h"
 
 #include "points/base/random.h"
+#include "points/base/simd.h"
 #include "points/base/vector3d.h"
 #include "render/scene/materials/sampling.h"
 
@@ -319,11 +320,11 @@ static void write_sky(void) {
     write_file("sky.pfm", bytes, sizeof bytes);
 }
 
-/* Sixteen references at once are bit-identical to single ones, with an environment that is sampled together.
- */
+/* Sixteen references at once are bit-identical to single ones, with an environment that is sampled together,
+ * and rectangles of which some are large enough to be sampled by solid angle. */
 static void lanes_are_single_samples(void **state) {
-    (void)state;
-    char body[8192];
+    const char *const isa = *state;
+    char body[16384];
     size_t length = (size_t)snprintf(
         body, sizeof body, "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter>");
     write_sky();
@@ -332,7 +333,15 @@ static void lanes_are_single_samples(void **state) {
             body + length, sizeof body - length,
             "<emitter type='point'><point name='position' x='%g' y='%g' z='%g'/></emitter>",
             4.0 * (double)unit(i, 1) - 2.0, 4.0 * (double)unit(i, 2) - 2.0, 4.0 * (double)unit(i, 3));
+    for (size_t i = 0; i < 12; ++i)
+        length += (size_t)snprintf(
+            body + length, sizeof body - length,
+            SQUARE("<scale x='%g' y='%g'/><rotate x='1' angle='%g'/><translate x='%g' z='%g'/>", AREA("30")),
+            i % 3 == 0 ? 2.0 : 0.1, 0.3 + (double)unit(i, 9), 360.0 * (double)unit(i, 10),
+            4.0 * (double)unit(i, 11) - 2.0, 2.0 * (double)unit(i, 12) - 1.0);
     snprintf(body + length, sizeof body - length, SQUARE("<translate z='-1'/>", AREA("3")));
+    setenv("AUREOLE_ISA", isa, 1);
+    aur_isa_reset();
     aur_scene *const scene = must_load_body(body);
     aur_lane_vectors positions, normals;
     aur_lane_numbers choice, u, v;
@@ -372,6 +381,8 @@ static void lanes_are_single_samples(void **state) {
     }
     assert_true(from_sky > 100 && drawn - from_sky > 100);
     aur_scene_destroy(scene);
+    unsetenv("AUREOLE_ISA");
+    aur_isa_reset();
 }
 
 int main(void) {
@@ -381,7 +392,9 @@ int main(void) {
         cmocka_unit_test(same_light_as_each_alone),
         cmocka_unit_test(weights_count),
         cmocka_unit_test(one_light_needs_no_tree),
-        cmocka_unit_test(lanes_are_single_samples),
+        cmocka_unit_test_prestate(lanes_are_single_samples, "portable"),
+        cmocka_unit_test_prestate(lanes_are_single_samples, "avx2"),
+        cmocka_unit_test_prestate(lanes_are_single_samples, "avx512"),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

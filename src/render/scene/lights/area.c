@@ -241,14 +241,39 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
     return finish_sample(emitter, query->reference.position, &point, density, drawn);
 }
 
+static const aur_rectangle_light *rectangle_of(const aur_emitter *emitter) {
+    const area_light *const light = emitter->data;
+    return light->is_rectangle && emitter->radiance.texture == NULL ? &light->rectangle : NULL;
+}
+
 static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
                          const float *u, const float *v, aur_light_lanes *drawn) {
     (void)lanes; /* all 16 lanes, which costs the same */
-    const area_light *const light = emitter->data;
-    if (!light->is_rectangle || emitter->radiance.texture != NULL)
+    const aur_rectangle_light *const rectangle = rectangle_of(emitter);
+    if (rectangle == NULL)
         return false;
-    light->kernels->lanes(&light->rectangle, references, u, v, drawn);
+    ((const area_light *)emitter->data)->kernels->lanes(rectangle, references, u, v, drawn);
     return true;
+}
+
+/* Rectangles, unless there are few: vector code takes as long as some of them. */
+static uint32_t sample_several(const aur_emitter *const *emitters, const aur_light_references *references,
+                               const float *u, const float *v, aur_light_lanes *drawn) {
+    enum { LEAST = 4 };
+    const aur_rectangle_light *found[AUR_PACKET_SIZE], *any = NULL;
+    aur_rectangle_lanes rectangles;
+    uint32_t lanes = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        found[k] = emitters[k] != NULL ? rectangle_of(emitters[k]) : NULL;
+        lanes |= (uint32_t)(found[k] != NULL) << k;
+        any = found[k] != NULL ? found[k] : any;
+    }
+    if (__builtin_popcount(lanes) < LEAST)
+        return 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        aur_rectangle_lane_set(&rectangles, k, found[k] != NULL ? found[k] : any);
+    AUR_KERNEL_HERE(aur_rectangle_kernels).each(&rectangles, references, u, v, drawn);
+    return lanes;
 }
 
 static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
@@ -271,6 +296,7 @@ const aur_emitter_descriptor aur_emitter_area = {
     .bounds = find_bounds,
     .sample = sample,
     .lanes = sample_lanes,
+    .several = sample_several,
     .emit = emit,
     .release = release,
     .pdf_seen = pdf_seen,

@@ -61,9 +61,32 @@ typedef void (*aur_rectangle_lanes_function)(const aur_rectangle_light *light,
                                              const aur_light_references *references, const float *u,
                                              const float *v, aur_light_lanes *drawn);
 
+/* Sixteen such lights. */
+typedef struct aur_rectangle_lanes {
+    aur_lane_vectors corner, x, y, normal, radiance;
+    aur_lane_numbers width, height, area, rounding;
+} aur_rectangle_lanes;
+
+static inline void aur_rectangle_lane_set(aur_rectangle_lanes *lanes, size_t lane,
+                                          const aur_rectangle_light *light) {
+    aur_lane_set(&lanes->corner, lane, light->rectangle.corner);
+    aur_lane_set(&lanes->x, lane, light->rectangle.x);
+    aur_lane_set(&lanes->y, lane, light->rectangle.y);
+    aur_lane_set(&lanes->normal, lane, light->normal);
+    aur_lane_set(&lanes->radiance, lane, light->radiance);
+    lanes->width[lane] = light->rectangle.width;
+    lanes->height[lane] = light->rectangle.height;
+    lanes->area[lane] = light->area;
+    lanes->rounding[lane] = light->rounding;
+}
+
 /* The kernels for this processor. */
 typedef struct aur_rectangle_kernels {
     aur_rectangle_lanes_function lanes;
+    /* A sample of another light for each reference point, with its direction: bit-identical to single
+     * samples of the lights. */
+    void (*each)(const aur_rectangle_lanes *lights, const aur_light_references *references, const float *u,
+                 const float *v, aur_light_lanes *drawn);
 } aur_rectangle_kernels;
 
 AUR_KERNELS(const aur_rectangle_kernels, aur_rectangle_kernels);

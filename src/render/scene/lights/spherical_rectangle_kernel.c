@@ -4,6 +4,9 @@
 #include "render/scene/lights/spherical_rectangle.h"
 #include "render/scene/patches.h"
 
+/* Loops over calls do not vectorise. */
+#define AUR_ALWAYS_INLINE static inline __attribute__((always_inline))
+
 /* Clamps a number to [0, 1]. Branch-free: comparisons would not vectorise. */
 static inline float rectangle_part(float x) {
     const float positive = 0.5f * (x + fabsf(x));
@@ -22,7 +25,7 @@ static inline float rectangle_is_odd(float integer) {
 }
 
 /* Sine and cosine of an angle within -3 pi .. 3 pi, by Taylor series about the nearest multiple of pi / 2. */
-static inline void rectangle_turn(float angle, float *sine, float *cosine) {
+AUR_ALWAYS_INLINE void rectangle_turn(float angle, float *sine, float *cosine) {
     const float quarter = rectangle_nearest(angle * (2.0f / AUR_PI_F));
     const float x = (angle - quarter * 1.57079637f) + quarter * 4.371139e-8f; /* pi / 2 in two parts */
     const float square = x * x;
@@ -62,8 +65,8 @@ static inline rectangle_view rectangle_placed(const aur_rectangle *r, aur_vector
 }
 
 /* Sets up the rectangle for a reference point; its solid angle is 0 if it is sampled by area. */
-static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
-                                                     float py, float pz) {
+AUR_ALWAYS_INLINE aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
+                                                         float py, float pz) {
     const rectangle_view at = rectangle_placed(r, normal, px, py, pz);
     const float x0 = at.x0, y0 = at.y0, z0 = at.z0, zz = z0 * z0;
     const float x1 = x0 + r->width, y1 = y0 + r->height;
@@ -93,8 +96,8 @@ static inline float rectangle_strip(const aur_spherical_rectangle *seen, float s
     return rectangle_part(angle / seen->solid_angle);
 }
 
-static inline void rectangle_point(const aur_spherical_rectangle *seen, float u, float v, float *s,
-                                   float *t) {
+AUR_ALWAYS_INLINE void rectangle_point(const aur_spherical_rectangle *seen, float u, float v, float *s,
+                                       float *t) {
     float sine, cosine;
     rectangle_turn(u * seen->solid_angle + seen->k, &sine, &cosine);
     const float f = (cosine * seen->b0 - seen->b1) / sine;
@@ -191,7 +194,102 @@ static void rectangle_lanes(const aur_rectangle_light *given, const aur_light_re
     }
 }
 
-const aur_rectangle_kernels AUR_KERNEL(aur_rectangle_kernels) = {rectangle_lanes};
+static inline aur_rectangle rectangle_of_lane(const aur_rectangle_lanes *lights, size_t k) {
+    return (aur_rectangle){aur_lane_vector(&lights->corner, k), aur_lane_vector(&lights->x, k),
+                           aur_lane_vector(&lights->y, k), lights->width[k], lights->height[k]};
+}
+
+/* Points on the rectangles, as fractions of width and height, and their pdfs (aur_seen_rectangle_draw).
+ * `angle` is the solid angle, or not above 0 if the rectangle is sampled by area. */
+static void rectangle_points(const aur_rectangle_lanes *lights, const aur_light_references *references,
+                             aur_lane_numbers s, aur_lane_numbers t, aur_lane_numbers angle,
+                             aur_lane_numbers density) {
+    const aur_lane_vectors *const from = references->position, *const facing = references->normal;
+    aur_lane_numbers x, y;
+    uint32_t any = 0;
+    AUR_INDEPENDENT_LOOP
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_rectangle r = rectangle_of_lane(lights, k);
+        const rectangle_view at =
+            rectangle_placed(&r, aur_vector_cross(r.x, r.y), from->x[k], from->y[k], from->z[k]);
+        any |= (uint32_t)(at.excess > 0.0f);
+        angle[k] = at.excess;
+    }
+    if (any != 0) {
+        AUR_INDEPENDENT_LOOP
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const aur_rectangle r = rectangle_of_lane(lights, k);
+            const aur_spherical_rectangle seen =
+                rectangle_seen(&r, aur_vector_cross(r.x, r.y), from->x[k], from->y[k], from->z[k]);
+            angle[k] = angle[k] > 0.0f ? seen.solid_angle : 0.0f;
+        }
+    }
+    AUR_INDEPENDENT_LOOP
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_rectangle r = rectangle_of_lane(lights, k);
+        const aur_vector across = aur_vector_cross(r.x, r.y);
+        const rectangle_view at = rectangle_placed(&r, across, from->x[k], from->y[k], from->z[k]);
+        const aur_bilinear weights =
+            rectangle_weights(&r, &at, across, aur_lane_vector(facing, k), !(angle[k] > 0.0f));
+        float moved[2] = {s[k], t[k]};
+        aur_bilinear_draw(&weights, &moved[0], &moved[1]);
+        s[k] = moved[0];
+        t[k] = moved[1];
+        density[k] = aur_bilinear_density(&weights, moved[0], moved[1]);
+    }
+    if (any == 0)
+        return;
+    AUR_INDEPENDENT_LOOP
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_rectangle r = rectangle_of_lane(lights, k);
+        const aur_spherical_rectangle seen =
+            rectangle_seen(&r, aur_vector_cross(r.x, r.y), from->x[k], from->y[k], from->z[k]);
+        rectangle_point(&seen, s[k], t[k], &x[k], &y[k]);
+    }
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool by_angle = angle[k] > 0.0f;
+        s[k] = by_angle ? x[k] : s[k];
+        t[k] = by_angle ? y[k] : t[k];
+    }
+}
+
+static void rectangle_lanes_each(const aur_rectangle_lanes *given, const aur_light_references *references,
+                                 const float *u, const float *v, aur_light_lanes *drawn) {
+    const aur_rectangle_lanes lights = *given; /* outputs must not alias these */
+    aur_lane_numbers s, t, angle, density, lit;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        s[k] = u[k];
+        t[k] = v[k];
+    }
+    rectangle_points(&lights, references, s, t, angle, density);
+    AUR_INDEPENDENT_LOOP
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_rectangle r = rectangle_of_lane(&lights, k);
+        const aur_vector from = aur_lane_vector(references->position, k);
+        const aur_vector normal = aur_lane_vector(&lights.normal, k);
+        const aur_vector along = aur_vector_add_scaled(r.corner, s[k] * r.width, r.x);
+        const aur_vector point = aur_vector_add_scaled(along, t[k] * r.height, r.y);
+        const aur_vector way = aur_vector_subtract(point, from);
+        const float squared = aur_vector_dot(way, way), scale = 1.0f / sqrtf(squared);
+        const aur_vector direction = aur_vector_scale(way, scale);
+        const float cosine = -aur_vector_dot(direction, normal);
+        const float by_area = density[k] * squared / (cosine * lights.area[k]);
+        const float by_angle = density[k] / angle[k];
+        const float pdf = angle[k] > 0.0f ? by_angle : by_area;
+        const float finite = fabsf(pdf) < INFINITY ? pdf : 0.0f, faced = cosine > 0.0f ? finite : 0.0f;
+        lit[k] = squared > 0.0f ? faced : 0.0f;
+        aur_lane_set(&drawn->position, k, aur_surface_target(from, point, normal, lights.rounding[k]));
+        aur_lane_set(&drawn->direction, k, direction);
+        drawn->reachable[k] = 1.0f;
+    }
+    AUR_INDEPENDENT_LOOP
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        drawn->pdf[k] = lit[k];
+        aur_lane_set(&drawn->radiance, k, aur_lane_vector(&lights.radiance, k));
+    }
+}
+
+const aur_rectangle_kernels AUR_KERNEL(aur_rectangle_kernels) = {rectangle_lanes, rectangle_lanes_each};
 
 #if !AUR_KERNEL_WIDE
 
