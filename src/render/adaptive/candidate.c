@@ -176,7 +176,8 @@ static double visible_variance(const aur_candidate *candidate, size_t i) {
     const aur_visible_emitters *const visible = &candidate->visible;
     const uint32_t samples = candidate->targets[i];
     const aur_rare_light rare = {aur_visible_emitters_variance(visible, pixel, samples),
-                                 visible->share != NULL ? visible->share[pixel] : 0.0, samples};
+                                 visible->share != NULL ? visible->share[pixel] : 0.0, samples,
+                                 (double)candidate->replicas.count};
     return aur_error_variance_bound(candidate->error_measure, &candidate->weights[pixel], &rare);
 }
 

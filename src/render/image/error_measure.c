@@ -87,15 +87,16 @@ static double bound_of_three(const double weight[3], const aur_rare_light *light
 
 /* A displayed value lies between 0 and 1, and after a hit between its value with one hit and 1. So its
  * variance is at most the variance between hit and miss plus that within hits (a quarter of the squared
- * range). */
+ * range). That is the variance of the displayed mean of all replicas: if all have missed the light, averaging
+ * does not lessen the error. */
 static double bound_of_displayed(const double weight[3], const aur_rare_light *light) {
-    const double n = light->samples, p = light->share, missed = pow(1.0 - p, n);
-    const double linear = light->variance * weight[0] * weight[0];
+    const double count = light->replicas, n = light->samples * count, p = light->share;
+    const double missed = pow(1.0 - p, n), linear = light->variance * weight[0] * weight[0];
     if (!(p > 0.0 && p < 1.0))
-        return fmin(linear, 0.75);
-    const double hit = sqrt(light->variance * n / (3.0 * p * (1.0 - p))) / n;
+        return fmin(linear, 0.75 * count);
+    const double hit = sqrt(light->variance * light->samples / (3.0 * p * (1.0 - p))) / n;
     const double range = 1.0 - aur_srgb_encode(weight[0] * hit);
-    return fmin(linear, 3.0 * (1.0 - missed) * (missed + 0.25 * range * range));
+    return fmin(linear, count * 3.0 * (1.0 - missed) * (missed + 0.25 * range * range));
 }
 
 /* In the order of aur_error_measure. */

@@ -24,12 +24,14 @@ void aur_error_smooth(size_t width, size_t height, const double (*values)[3], do
 /* The differences in a pixel whose values `from` change by `errors`, for each of `count` such changes. */
 void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
                      size_t count, const double (*errors)[3], double (*differences)[3]);
-/* Light that a sample of a pixel hits with a small probability, `share`. */
+/* Light that a sample of a pixel hits with a small probability, `share`; each of `replicas` images has
+ * `samples` samples of the pixel. */
 typedef struct aur_rare_light {
-    double variance; /* of the mean of the samples in R, G and B together */
-    double share, samples;
+    double variance; /* of the mean of the samples of one image in R, G and B together */
+    double share, samples, replicas;
 } aur_rare_light;
 
-/* An upper bound of the variance that it causes in the differences. */
+/* An upper bound of the variance that it causes in the differences of the mean of the images, times their
+ * number. */
 double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight,
                                 const aur_rare_light *light);

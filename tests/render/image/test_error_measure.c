@@ -131,15 +131,17 @@ static void test_clipped(void **state) {
     aur_image_destroy(reference);
 }
 
-/* A light that each of n samples meets with probability p, next to other light: the variance of what is
- * displayed, by summing over all numbers of hits, is below the bound, which saturated pixels make small. */
+/* A light that each of n samples of some replicas meets with probability p, next to other light: the variance
+ * of the displayed mean of the replicas, by summing over all numbers of hits, is below the bound, which
+ * saturated pixels make small. */
 static void test_rare_light(void **state) {
     (void)state;
     static const double shares[] = {0.001, 0.03, 0.2, 0.9}, lights[] = {0.5, 5.0, 500.0},
                         others[] = {0.0, 0.3};
-    for (size_t k = 0; k < 4 * 3 * 2; ++k)
-        for (unsigned n = 1; n <= 64; n *= 4) {
-            const double p = shares[k % 4], light = lights[k / 4 % 3], other = others[k / 12];
+    for (size_t k = 0; k < 4 * 3 * 2 * 2; ++k)
+        for (unsigned samples = 1; samples <= 64; samples *= 4) {
+            const unsigned replicas = k / 24 == 0 ? 1 : 4, n = samples * replicas;
+            const double p = shares[k % 4], light = lights[k / 4 % 3], other = others[k / 12 % 2];
             double probability = pow(1.0 - p, n), sum = 0.0, squares = 0.0;
             for (unsigned hits = 0; hits <= n; ++hits) {
                 const double shown = aur_srgb_encode(other + light * hits / n);
@@ -149,13 +151,13 @@ static void test_rare_light(void **state) {
             }
             const double exposure = 2.0,
                          variance = 3.0 * p * (1.0 - p) * light * light / (exposure * exposure);
-            const aur_rare_light rare = {variance / n, p, n};
+            const aur_rare_light rare = {variance / samples, p, samples, replicas};
             const aur_error_weight weight = {{exposure, exposure, exposure}};
             const double bound = aur_error_variance_bound(AUR_ERROR_MEASURE_DISPLAY, &weight, &rare);
             /* Where values are dark the display's slope is up to 12.92, which the linear part leaves out. */
-            assert_true(bound <= 0.75 + 1e-12);
+            assert_true(bound <= 0.75 * replicas + 1e-12);
             if (light > 100.0)
-                assert_true(3.0 * (squares - sum * sum) <= bound * (1.0 + 1e-9) + 1e-15);
+                assert_true(3.0 * replicas * (squares - sum * sum) <= bound * (1.0 + 1e-9) + 1e-14);
             if (light > 100.0 && p * n > 8.0)
                 assert_true(bound < 0.01);
         }
