@@ -5,9 +5,9 @@
 
 #include "points/base/cache.h"
 #include "points/base/parallel.h"
-#include "render/adaptive/bias.h"
 #include "render/adaptive/candidate.h"
 #include "render/race/race.h"
+#include "render/replicas/bias.h"
 
 struct aur_adaptive {
     aur_adaptive_options target;

@@ -1,4 +1,4 @@
-#include "render/adaptive/bias.h"
+#include "render/replicas/bias.h"
 
 #include <aureole/statistics.h>
 #include <math.h>

@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "points/base/random.h"
-#include "render/adaptive/bias.h"
 #include "render/film/film.h"
+#include "render/replicas/bias.h"
 #include <aureole-render/render.h>
 
 enum { SIDE = 32, REPLICAS = 4, RUNS = 300 };
