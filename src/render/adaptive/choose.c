@@ -225,26 +225,30 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
-/* What is left to do: the squares of the noise's bound and of half the bias's interval fall in proportion to
- * one over their rays. At the least work, the square of the error is divided between both in proportion to
- * the roots of rays times squares. */
+/* What is left to do: the squares of the noise's bound and of the width of the bias's interval fall in
+ * proportion to one over their rays. At the least work, what the interval's lower end leaves of the square of
+ * the error is divided between both in proportion to the roots of rays times squares. */
 typedef struct rest_of_work {
-    double half; /* of the bias's interval, then */
-    double rays; /* of samples and corrections until then; INFINITY: the bias is larger than the error */
+    double width; /* of the bias's interval, then */
+    double rays;  /* of samples and corrections until then; INFINITY: the bias is larger than the error */
 } rest_of_work;
 
-static rest_of_work find_rest(const aur_adaptive *adaptive) {
+static double width_of(const aur_adaptive *adaptive) {
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const double bound = adaptive->candidate.bound, noise = bound * bound;
+    return bias->high - bias->low;
+}
+
+static rest_of_work find_rest(const aur_adaptive *adaptive) {
+    const double bound = adaptive->candidate.bound, noise = bound * bound, now = width_of(adaptive);
     const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
     const double corrections = aur_replicas_rays(&adaptive->corrections.replicas);
-    const double square = adaptive->target.error * adaptive->target.error - fmax(bias->estimate, 0.0);
-    const double of_noise = sqrt(rays * noise), of_bias = sqrt(corrections * bias->half);
-    const double best = fmin(square * of_noise / (of_noise + of_bias), noise), half = square - best;
+    const double square =
+        adaptive->target.error * adaptive->target.error - adaptive->bias[adaptive->target.measure].low;
+    const double of_noise = sqrt(rays * noise), of_bias = sqrt(corrections * now);
+    const double best = fmin(square * of_noise / (of_noise + of_bias), noise), width = square - best;
     if (!(square > 0.0))
         return (rest_of_work){0.0, INFINITY};
-    return (rest_of_work){half,
-                          rays * (noise / best - 1.0) + corrections * fmax(bias->half / half - 1.0, 0.0)};
+    return (rest_of_work){width, rays * (noise / best - 1.0) + corrections * fmax(now / width - 1.0, 0.0)};
 }
 
 static bool is_met(const aur_adaptive *adaptive) {
@@ -264,7 +268,7 @@ static aur_result make_room(aur_adaptive *adaptive, bool *again, aur_error *erro
         *again = true;
         return reject(adaptive, false, error);
     }
-    if (adaptive->bias[adaptive->target.measure].half > rest.half)
+    if (width_of(adaptive) > rest.width)
         return correct(adaptive, error);
     while (adaptive->level >= bound * bound)
         adaptive->level *= AUR_NEXT_NOISE_LEVEL;
@@ -281,7 +285,7 @@ static bool are_corrections_due(const aur_adaptive *adaptive) {
         return true;
     return 2.0 * aur_replicas_rays(&adaptive->corrections.replicas) <=
                fmin(CORRECTIONS_PART * rays, reserve) &&
-           !(bounded && adaptive->bias[adaptive->target.measure].half <= find_rest(adaptive).half);
+           !(bounded && width_of(adaptive) <= find_rest(adaptive).width);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {

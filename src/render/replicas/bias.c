@@ -39,26 +39,28 @@ static void add_differences(const aur_replicas *replicas, size_t first, aur_weig
     }
 }
 
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* Noise of covariance C in each of n replicas gives the mean of their n (n - 1) / 2 products a variance of
- * tr C^2 by one of them. The estimate of tr C^2 from n - 1 degrees of freedom is at least its factor for one
- * channel too large, which is taken away. */
-static void add_block(size_t count, double d[AUR_REPLICAS_MAX][3], bias_sums *sums) {
-    const double n = (double)count, degrees = n - 1.0;
-    double mean[3] = {0.0}, squares = 0.0, covariance[3][3] = {{0.0}}, spread = 0.0;
-    for (size_t r = 0; r < count; ++r)
-        for (size_t c = 0; c < 3; ++c)
-            mean[c] += d[r][c] / n;
-    for (size_t r = 0; r < count; ++r)
+ * tr C^2 by one of them. Differences a, b of two pairs of replicas are independent and have twice the
+ * covariance, so the mean of (a b)^2 is 4 tr C^2, for any noise. */
+static void add_block(size_t n, double d[AUR_REPLICAS_MAX][3], bias_sums *sums) {
+    const double pairs = (double)(n * (n - 1)) / 2.0;
+    double products = 0.0, traces = 0.0;
+    for (size_t r = 0; r < n; ++r) {
+        double a[3], b[3];
         for (size_t c = 0; c < 3; ++c) {
-            squares += d[r][c] * d[r][c];
-            for (size_t k = 0; k < 3; ++k)
-                covariance[c][k] += (d[r][c] - mean[c]) * (d[r][k] - mean[k]) / degrees;
+            a[c] = d[r][c] - d[(r + 1) % n][c];
+            b[c] = d[(r + 2) % n][c] - d[(r + 3) % n][c];
         }
-    for (size_t i = 0; i < 9; ++i)
-        spread += covariance[i / 3][i % 3] * covariance[i / 3][i % 3];
-    const double of_mean = mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2];
-    aur_moments_add(&sums->products, (n * n * of_mean - squares) / (n * degrees));
-    sums->noise += spread / (1.0 + 2.0 / degrees) * 2.0 / (n * degrees);
+        traces += dot(a, b) * dot(a, b) / (4.0 * (double)n);
+        for (size_t s = 0; s < r; ++s)
+            products += dot(d[r], d[s]) / pairs;
+    }
+    aur_moments_add(&sums->products, products);
+    sums->noise += traces / pairs;
 }
 
 static bool has_samples(const aur_replicas *replicas, size_t count, const size_t *pixels) {
