@@ -30,21 +30,18 @@ static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene
 
 static aur_result allocate(aur_candidate *candidate, aur_error *error) {
     const size_t pixels = candidate->replicas.pixel_count, values = candidate->value_count;
-    candidate->targets = calloc(values, sizeof *candidate->targets);
-    candidate->earlier = calloc(values, sizeof *candidate->earlier);
-    candidate->variances = calloc(values, sizeof *candidate->variances);
-    candidate->measured = calloc(values, sizeof *candidate->measured);
-    candidate->pixels = calloc(pixels, sizeof *candidate->pixels);
-    candidate->spreads = calloc(pixels, sizeof *candidate->spreads);
-    candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
-    candidate->light = calloc(values, sizeof *candidate->light);
-    candidate->values = calloc(2 * pixels, sizeof *candidate->values);
-    candidate->weights = calloc(pixels, sizeof *candidate->weights);
-    const bool allocated = candidate->light != NULL && candidate->values != NULL &&
-                           candidate->weights != NULL && candidate->targets != NULL &&
-                           candidate->earlier != NULL && candidate->variances != NULL &&
-                           candidate->measured != NULL && candidate->pixels != NULL &&
-                           candidate->spreads != NULL && candidate->scratch != NULL;
+    aur_arena *const arena = &candidate->arena;
+    const bool allocated =
+        (candidate->targets = aur_arena_allocate(arena, values * sizeof *candidate->targets)) != NULL &&
+        (candidate->earlier = aur_arena_allocate(arena, values * sizeof *candidate->earlier)) != NULL &&
+        (candidate->variances = aur_arena_allocate(arena, values * sizeof *candidate->variances)) != NULL &&
+        (candidate->measured = aur_arena_allocate(arena, values * sizeof *candidate->measured)) != NULL &&
+        (candidate->pixels = aur_arena_allocate(arena, pixels * sizeof *candidate->pixels)) != NULL &&
+        (candidate->spreads = aur_arena_allocate(arena, pixels * sizeof *candidate->spreads)) != NULL &&
+        (candidate->scratch = aur_arena_allocate(arena, 2 * pixels * sizeof *candidate->scratch)) != NULL &&
+        (candidate->light = aur_arena_allocate(arena, values * sizeof *candidate->light)) != NULL &&
+        (candidate->values = aur_arena_allocate(arena, 2 * pixels * sizeof *candidate->values)) != NULL &&
+        (candidate->weights = aur_arena_allocate(arena, pixels * sizeof *candidate->weights)) != NULL;
     return allocated ? AUR_OK : aur_fail_memory(error);
 }
 
@@ -82,16 +79,7 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
 
 void aur_candidate_release(aur_candidate *candidate) {
     aur_replicas_release(&candidate->replicas);
-    free(candidate->targets);
-    free(candidate->earlier);
-    free(candidate->variances);
-    free(candidate->measured);
-    free(candidate->pixels);
-    free(candidate->spreads);
-    free(candidate->scratch);
-    free(candidate->light);
-    free(candidate->values);
-    free(candidate->weights);
+    aur_arena_release(&candidate->arena);
     aur_visible_emitters_release(&candidate->visible);
     free(candidate->integrator);
     *candidate = (aur_candidate){0};

@@ -6,12 +6,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "points/base/array.h"
 #include "render/replicas/replicas.h"
 #include "render/vertex/visible_emitters.h"
 
 typedef struct aur_candidate {
     char *integrator; /* as aur_render_options take it; NULL: the scene's */
     aur_replicas replicas;
+    aur_arena arena;    /* of the arrays */
     size_t value_count; /* replicas x pixels */
     uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
     uint32_t *earlier;  /* [value_count] before it */

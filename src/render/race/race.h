@@ -5,8 +5,8 @@
 
 #include <aureole-render/adaptive.h>
 
-#include "render/replicas/replicas.h"
 #include "render/film/blocks.h"
+#include "render/replicas/replicas.h"
 
 /* The rows of the table of candidates: path tracing, and the one that is used without a race. */
 enum {

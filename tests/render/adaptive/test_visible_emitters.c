@@ -139,9 +139,9 @@ static void knows_the_samples_of_cells(void **state) {
     options.filter = "gaussian";
     for (size_t measure = 0; measure < AUR_ERROR_MEASURE_COUNT; ++measure) {
         aur_candidate candidate = {.integrator = strdup("path")};
-        assert_int_equal(aur_candidate_create(renderer, &options, REPLICAS, (aur_error_measure)measure,
-                                              &candidate, NULL),
-                         AUR_OK);
+        assert_int_equal(
+            aur_candidate_create(renderer, &options, REPLICAS, (aur_error_measure)measure, &candidate, NULL),
+            AUR_OK);
         const size_t pixels = candidate.replicas.pixel_count;
         atomic_bool cancelled = false;
         for (size_t round = 0; round < ROUNDS; ++round) {
