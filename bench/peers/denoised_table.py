@@ -6,8 +6,9 @@
 
 Requires the packages of target_error.py. Both programs use the library in AUREOLE_OIDN, the filter box, path lengths without a limit and one thread.
 Mitsuba is llvm_ad_rgb with multi-jittered samples; its integrator aov renders albedo and normals with the image. Its seconds are those of
-this render call, compilation left out, and of denoising. Ours are those of the whole process, for times T from an eighth of Mitsuba's seconds up; the
-error at equal seconds is interpolated between the two nearest by a power law, and the name of the integrator is that of the slower one.
+this render call, compilation left out, and of denoising. Ours are those of the whole process less those of a process that loads the scene and renders
+one pixel, for times T from an eighth of Mitsuba's seconds up; the error at equal seconds is interpolated between the two nearest by a power law,
+and the name of the integrator is that of the slower one.
 
 The error is relMSE by the measure `relative` of docs/target-error.md: the mean of (x - a)(x - b) / scale^2 in luminance, where a and b are
 long renders of `path` and of Mitsuba, whose errors are independent (stored in FOLDER; their means are compared first).
@@ -130,8 +131,10 @@ def peer(path, width, height, samples, a, b, keep):
 def ours(program, path, width, height, seconds, a, b, keep, options):
     """The error at equal seconds, and the integrator."""
     copy, found, time = Copy(path, PATH), [], seconds / 8
+    loading = aureole(program, copy.name, 1, 1, ["--integrator", "path", "--samples", "1"])[1]
     while not found or found[-1][0] < seconds and time < 100 * seconds:
         image, taken, report = aureole(program, copy.name, width, height, ["--time", f"{time}s", "--denoise", *options])
+        taken -= loading
         if not found or taken > found[-1][0]:
             found.append((taken, relative_mse(image, a, b), report.get("integrator", ""), image))
         time *= 1.35

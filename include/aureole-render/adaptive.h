@@ -29,6 +29,9 @@ typedef struct aur_adaptive_options {
     double confidence;         /* of the interval, in [.5, .9999]; 0: .95 */
     size_t replicas;           /* independent renderings, 3 to 16; 0: 4 */
     aur_error_measure measure; /* of `error` and `bias`; samples go where this error falls most for them */
+    /* Not 0: candidates whose neighbouring pixels share gather directions are not tried, because denoisers
+     * keep noise that pixels share. */
+    int independent_pixels;
 } aur_adaptive_options;
 
 AUR_EXPERIMENTAL aur_result aur_adaptive_options_init(aur_adaptive_options *options, aur_error *error)

@@ -121,10 +121,11 @@ static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
     const aur_result result = aur_render_identify(scene, options, &render, error);
     if (result != AUR_OK)
         return result;
-    adaptive->identity = aur_new_text("error %.15g %s\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
-                                      "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n%s",
-                                      w->error, aur_error_measure_name(w->measure), w->seconds, w->rays,
-                                      w->rounds, w->bias, w->confidence, w->replicas, render);
+    adaptive->identity =
+        aur_new_text("error %.15g %s\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
+                     "\nbias %.15g\nconfidence %.15g\nreplicas %zu\napart %d\n%s",
+                     w->error, aur_error_measure_name(w->measure), w->seconds, w->rays, w->rounds, w->bias,
+                     w->confidence, w->replicas, w->independent_pixels != 0, render);
     free(render);
     return adaptive->identity != NULL ? AUR_OK : aur_fail_memory(error);
 }

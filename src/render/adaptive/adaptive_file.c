@@ -41,6 +41,7 @@ static const struct field {
     FIELD(race.entries[AUR_RACE_LIGHTS].need),
     FIELD(race.entries[AUR_RACE_LONG].need),
     FIELD(race.entries[AUR_RACE_CANDIDATES].need),
+    FIELD(race.entries[AUR_RACE_EIGHT].need),
     FIELD(candidate.rate),
     FIELD(candidate.finished),
     FIELD(candidate.rays_before),

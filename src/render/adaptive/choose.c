@@ -138,7 +138,10 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
 static aur_result take_ranked(aur_adaptive *adaptive, size_t rank, aur_error *error) {
     const aur_race *const race = &adaptive->race;
     const size_t row = race->order[rank];
-    const double work = adaptive->target.rays > 0 ? (double)adaptive->target.rays : race->entries[row].need;
+    const double of_time = 0.4; /* without a target, bias is not worth as many photons */
+    const double work = adaptive->target.rays > 0      ? (double)adaptive->target.rays
+                        : adaptive->target.error > 0.0 ? race->entries[row].need
+                                                       : of_time * race->work;
     adaptive->others = aur_adaptive_spent(adaptive);
     adaptive->rank = rank;
     return aur_adaptive_take(
@@ -159,6 +162,7 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
                        .error = adaptive->target.error,
                        .budget = (double)adaptive->target.rays,
                        .seconds = adaptive->target.seconds,
+                       .apart = adaptive->target.independent_pixels != 0,
                        .cancelled = &adaptive->cancelled,
                        .spent.all = adaptive->others.all};
     aur_cache *const cache = aur_renderer_cache(adaptive->renderer);

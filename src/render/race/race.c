@@ -10,7 +10,7 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-enum { PIXELS = AUR_BLOCK_PIXELS, MAP_PHOTONS = 50000, RESAMPLINGS = 300 };
+enum { PIXELS = AUR_BLOCK_PIXELS, MAP_PHOTONS = 50000, RESAMPLINGS = 300, BRIEF_BLOCKS = 6 };
 /* By aureole-bench race-limits, half of the first blocks, twice the parts and other confidences change the
  * work by at most a fiftieth; half of the first part leaves candidates untried. */
 static const aur_race_limits default_limits = {
@@ -19,10 +19,10 @@ static const aur_race_limits default_limits = {
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
 /* A candidate's shading takes time without a ray: 1.13 to 1.22 times that of plain paths in four scenes. */
 static const double CANDIDATES_PRICE = 1.2;
-/* The shortest time limit for which a race is worthwhile: it takes tenths of a second. */
-static const double LEAST_SECONDS = 2.0;
+/* The shortest time limit for which a race is worthwhile, and the shortest for one of all first blocks. */
+static const double LEAST_SECONDS = 0.3, LONG_SECONDS = 2.0;
 /* Samples per pixel that a replica of each row renders: whole patterns. */
-static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6};
+static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2};
 
 static void set_reason(aur_race_entry *entry, bool out, const char *reason) {
     entry->out = out;
@@ -172,7 +172,7 @@ static double price(const aur_race_entry *entry, size_t row) {
 
 /* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
 static double least_work(const aur_race *race, size_t row) {
-    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0};
+    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0};
     const aur_race_entry *const entry = &race->entries[row];
     const double map = aur_race_gathers(row) ? aur_race_least_map(race->replica_count) : 0.0;
     const double pixels = (double)(race->width * race->height * race->replica_count);
@@ -273,6 +273,14 @@ static double spent_work(const aur_race *race) {
     return work;
 }
 
+/* Whether a time limit leaves enough for a first pattern in each pixel. The limit may be exceeded by a half,
+ * as by a round; the rate of short work is below the image's. */
+static bool fits(const aur_race *race, size_t row) {
+    const double growth = 1.5;
+    return race->error > 0.0 || race->budget > 0.0 ||
+           spent_work(race) + least_work(race, row) <= growth * whole_work(race, row);
+}
+
 /* The cost of the first rung of a row, predicted from the middle one's; a border of neighbours doubles a
  * block. */
 static double first_rung(const aur_race *race, size_t row) {
@@ -284,24 +292,34 @@ static double first_rung(const aur_race *race, size_t row) {
 /* Renders the first blocks with other rows, those most different first, while their work is small next to the
  * image's. */
 static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
-    static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS,
-                                    AUR_RACE_CANDIDATES};
+    const size_t small = race->apart ? AUR_RACE_EIGHT : AUR_RACE_SHARED;
+    const size_t others[] = {AUR_RACE_PATH, small, AUR_RACE_LONG, AUR_RACE_LIGHTS, AUR_RACE_CANDIDATES};
     const double most = race->limits->first_part * whole_work(race, AUR_RACE_MIDDLE);
     /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
     const bool path = 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
+    const bool smaller = !fits(race, AUR_RACE_MIDDLE);
     const aur_scene *const scene = aur_renderer_scene(race->renderer);
     const bool has_choice = aur_scene_emitter_count(scene) > 1 || aur_scene_has_environment(scene);
     aur_result result = AUR_OK;
     for (size_t k = 0; k < sizeof others / sizeof others[0] && result == AUR_OK; ++k) {
         const size_t row = others[k];
+        const bool needed =
+            (path && row == AUR_RACE_PATH) || (smaller && (row == small || row == AUR_RACE_CANDIDATES));
         if (row == AUR_RACE_CANDIDATES && !has_choice)
             set_reason(&race->entries[row], true, "not tried: there is a single light");
-        else if (spent_work(race) + first_rung(race, row) <= most || (path && row == AUR_RACE_PATH))
+        else if (needed || spent_work(race) + first_rung(race, row) <= most)
             result = render_blocks(race, row, blocks, error);
         else
             set_reason(&race->entries[row], true,
                        "not tried: its first blocks cost more than 10 % of the image");
     }
+    const size_t unused = race->apart ? AUR_RACE_SHARED : AUR_RACE_EIGHT;
+    set_reason(&race->entries[unused], true,
+               race->apart ? "not tried: denoisers keep noise that pixels share"
+                           : "not tried: only for denoised images by a time limit");
+    for (size_t row = 0; row < AUR_RACE_ROWS && result == AUR_OK; ++row)
+        if (aur_race_gathers(row) && is_measured(&race->entries[row], blocks) && !fits(race, row))
+            set_reason(&race->entries[row], true, "one pattern in each pixel takes longer than requested");
     return result;
 }
 
@@ -355,7 +373,8 @@ static void sort(aur_race *race) {
 
 /* The middle row first, by which the work of the others is estimated. */
 static aur_result run(aur_race *race, aur_error *error) {
-    const size_t first = race->limits->first_blocks;
+    const bool brief = race->seconds > 0.0 && race->seconds <= LONG_SECONDS;
+    const size_t first = brief ? BRIEF_BLOCKS : race->limits->first_blocks;
     const size_t blocks = race->blocks.count < first ? race->blocks.count : first;
     aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     aur_error refused = {0};
@@ -390,8 +409,10 @@ aur_result aur_race_run(aur_race *race, aur_error *error) {
     aur_result result = aur_blocks_create(race->width, race->height, &race->blocks, error);
     if (result == AUR_OK)
         result = run(race, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK) {
         sort(race);
+        race->work = whole_work(race, race->order[0]);
+    }
     return result;
 }
 

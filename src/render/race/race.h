@@ -16,6 +16,7 @@ enum {
     AUR_RACE_LIGHTS,
     AUR_RACE_LONG,
     AUR_RACE_CANDIDATES,
+    AUR_RACE_EIGHT,
     AUR_RACE_ROWS
 };
 
@@ -69,12 +70,14 @@ typedef struct aur_race {
     double error;   /* target of noise and bias; 0: none */
     double budget;  /* rays of the request; 0: none */
     double seconds; /* of the request; 0: none */
+    bool apart;     /* pixels must not share directions */
     const atomic_bool *cancelled;
     const aur_race_limits *limits; /* NULL: the default ones */
     aur_blocks blocks;
     aur_race_entry entries[AUR_RACE_ROWS];
     size_t order[AUR_RACE_ROWS]; /* measured candidates, best first; always includes path */
     size_t order_count;
+    double work; /* predicted work of the request, in rays */
     aur_spent spent;
 } aur_race;
 

@@ -47,7 +47,8 @@ typedef struct fixture {
     aur_race race;
 } fixture;
 
-static void run(const char *body, double error, size_t width, size_t height, fixture *f) {
+/* `request`: the target, its time and what pixels may share. */
+static void run_request(const char *body, aur_race request, size_t width, size_t height, fixture *f) {
     char text[4096];
     snprintf(text, sizeof text, "%s%s", head, body);
     static atomic_bool cancelled;
@@ -68,13 +69,19 @@ static void run(const char *body, double error, size_t width, size_t height, fix
                          .height = height,
                          .replica_count = 4,
                          .measure = AUR_ERROR_MEASURE_RELATIVE,
-                         .error = error,
+                         .error = request.error,
+                         .seconds = request.seconds,
+                         .apart = request.apart,
                          .cancelled = &cancelled};
     assert_int_equal(aur_race_run(&f->race, NULL), AUR_OK);
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
         print_message("%s: %.3g rays, %zu blocks, needs %.3g, %s\n", aur_race_name(i),
                       f->race.entries[i].rays, f->race.entries[i].blocks, f->race.entries[i].need,
                       f->race.entries[i].reason);
+}
+
+static void run(const char *body, double error, size_t width, size_t height, fixture *f) {
+    run_request(body, (aur_race){.error = error}, width, height, f);
 }
 
 static void end(fixture *f) {
@@ -130,6 +137,33 @@ static void test_no_race(void **state) {
     assert_int_equal(f.race.order[0], AUR_RACE_MIDDLE);
     assert_non_null(strstr(f.race.entries[AUR_RACE_LIGHTS].reason, "not tried"));
     assert_true(f.race.entries[AUR_RACE_LIGHTS].blocks == 0);
+    end(&f);
+}
+
+/* By a time limit, a pattern in each pixel of a large image takes too long; a small image has hours for more
+ * photons than the least. */
+static void test_time(void **state) {
+    (void)state;
+    fixture f;
+    run_request(indirect, (aur_race){.seconds = 0.31}, 1024, 768, &f);
+    assert_int_equal(f.race.order[0], AUR_RACE_PATH);
+    assert_non_null(strstr(f.race.entries[AUR_RACE_MIDDLE].reason, "longer than requested"));
+    end(&f);
+    run_request(indirect, (aur_race){.seconds = 36000.0}, 64, 48, &f);
+    assert_true(f.race.order[0] != AUR_RACE_PATH);
+    assert_true(aur_race_photons(f.race.work, 4) > aur_race_photons(0.0, 4));
+    end(&f);
+}
+
+/* Pixels whose image is denoised share no directions. */
+static void test_apart(void **state) {
+    (void)state;
+    fixture f;
+    run_request(indirect, (aur_race){.error = 0.002, .apart = true}, 64, 48, &f);
+    assert_true(f.race.entries[AUR_RACE_EIGHT].blocks > 0 && f.race.entries[AUR_RACE_SHARED].blocks == 0);
+    end(&f);
+    run(indirect, 0.002, 64, 48, &f);
+    assert_true(f.race.entries[AUR_RACE_EIGHT].blocks == 0 && f.race.entries[AUR_RACE_SHARED].blocks > 0);
     end(&f);
 }
 
@@ -206,9 +240,10 @@ static void test_shared_block(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
-                                       cmocka_unit_test(test_candidates),  cmocka_unit_test(test_no_race),
-                                       cmocka_unit_test(test_no_choice),   cmocka_unit_test(test_small_race),
-                                       cmocka_unit_test(test_shared_block)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win),  cmocka_unit_test(test_paths_win),
+                                       cmocka_unit_test(test_candidates),   cmocka_unit_test(test_no_race),
+                                       cmocka_unit_test(test_no_choice),    cmocka_unit_test(test_small_race),
+                                       cmocka_unit_test(test_shared_block), cmocka_unit_test(test_time),
+                                       cmocka_unit_test(test_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -172,6 +172,7 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
     adaptive_options.rays = target->rays;
     adaptive_options.rounds = target->rounds;
     adaptive_options.measure = target->measure;
+    adaptive_options.independent_pixels = target->independent_pixels;
     aur_adaptive *adaptive = NULL;
     aur_result result = aur_adaptive_create(renderer, options, &adaptive_options, &adaptive, error);
     *created = adaptive;

@@ -1,6 +1,7 @@
 #include "program/cli/render/denoise.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,14 +21,24 @@ void cli_denoise_end(cli_denoise *denoise) {
     denoise->library = NULL;
 }
 
-/* Renders albedo, normals and directly visible light: a few samples give little noise. */
-static aur_result render_features(aur_renderer *renderer, const aur_render_options *options,
+/* Samples per pixel that take about a tenth of the image's rays. Fewer show in the denoised image, many more
+ * do not. */
+static size_t feature_samples(const aur_adaptive *adaptive, size_t pixels) {
+    const double part = 0.1, rays_per_sample = 2.0, least = 16.0, most = 64.0;
+    aur_adaptive_report report = {.size = sizeof report};
+    if (adaptive != NULL)
+        aur_adaptive_get_report(adaptive, &report, NULL);
+    const double rays = (double)report.statistics.rays / (double)pixels;
+    return (size_t)fmin(fmax(part * rays / rays_per_sample, least), most);
+}
+
+/* Renders albedo, normals and directly visible light. */
+static aur_result render_features(aur_renderer *renderer, const aur_render_options *options, size_t samples,
                                   aur_image **features, aur_error *error) {
-    enum { SAMPLES = 16 };
     aur_render_options aov_options = *options;
     aov_options.integrator = "aov:aovs=(albedo:reflectance,normal:sh_normal),integrator=(path:max_depth=1)";
     aov_options.sampler = "sobol";
-    aov_options.samples_per_pixel = SAMPLES;
+    aov_options.samples_per_pixel = samples;
     aov_options.resumable = false;
     aov_options.warnings = (aur_warnings){0};
     return aur_renderer_render(renderer, &aov_options, features, NULL, error);
@@ -104,18 +115,20 @@ static aur_result denoise_halves(const cli_denoise *denoiser, const aur_adaptive
 }
 
 aur_result cli_denoise_image(const cli_denoise *denoiser, aur_renderer *renderer,
-                             const aur_render_options *options, const aur_adaptive *adaptive,
+                             const aur_render_options *options, const aur_adaptive *adaptive, bool bounds,
                              aur_image **image, aur_error_figures *figures, aur_error *error) {
     *figures = (aur_error_figures){.error = 0.0};
     if (!denoiser->enabled)
         return AUR_OK;
     aur_image *features = NULL, *whole = NULL;
-    aur_result result = render_features(renderer, options, &features, error);
+    const size_t pixels = aur_image_width(*image) * aur_image_height(*image);
+    aur_result result =
+        render_features(renderer, options, feature_samples(adaptive, pixels), &features, error);
     if (result == AUR_OK)
         result = put_together(*image, features, &whole, error);
     if (result == AUR_OK)
         result = denoise(denoiser, *image, features, whole, error);
-    if (result == AUR_OK && adaptive != NULL)
+    if (result == AUR_OK && adaptive != NULL && bounds)
         result = denoise_halves(denoiser, adaptive, features, figures, error);
     aur_image_destroy(features);
     if (result != AUR_OK) {

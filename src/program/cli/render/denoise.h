@@ -19,11 +19,12 @@ aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error);
 void cli_denoise_end(cli_denoise *denoise);
 
 /* Denoises R, G and B of the image that was rendered with `options`, using albedo and normals that it
- * renders. The noisy values become channels noisy.R, noisy.G, noisy.B, next to the albedo and normals. The
- * halves of `adaptive` (NULL allowed) are denoised too, and `figures` get their error; otherwise zeros.
+ * renders. The noisy values become channels noisy.R, noisy.G, noisy.B, next to the albedo and normals.
+ * `adaptive` is NULL without a target. If `bounds`, its halves are denoised too, and `figures` get their
+ * error; otherwise zeros.
  * Errors: INTERNAL with the library's message, and those of aur_renderer_render. */
 aur_result cli_denoise_image(const cli_denoise *denoise, aur_renderer *renderer,
-                             const aur_render_options *options, const aur_adaptive *adaptive,
+                             const aur_render_options *options, const aur_adaptive *adaptive, bool bounds,
                              aur_image **image, aur_error_figures *figures, aur_error *error);
 
 /* Writes the noisy image to OUT.noisy.exr if the output format only has R, G and B. */

@@ -285,9 +285,8 @@ static aur_result begin(render_command *command, aur_error *error) {
 static aur_result denoise(const render_command *command, aur_renderer *renderer, const aur_adaptive *adaptive,
                           aur_image **image, aur_error *error) {
     aur_error_figures halves;
-    const bool bounds = command->target.error > 0.0;
-    const aur_result result = cli_denoise_image(&command->denoise, renderer, &command->options,
-                                                bounds ? adaptive : NULL, image, &halves, error);
+    const aur_result result = cli_denoise_image(&command->denoise, renderer, &command->options, adaptive,
+                                                command->target.error > 0.0, image, &halves, error);
     if (result == AUR_OK && !command->common.quiet && halves.high > 0.0)
         cli_report_denoised(&halves, command->target.measure);
     return result;
@@ -441,8 +440,10 @@ static int run(const cli_call *call) {
     command->file_count = call->operand_count;
     if (cli_stage_read_files(&command->stage, call, &bad) != AUR_OK)
         return cli_fail(&bad);
-    if (command->denoise.enabled) /* denoising is limited by each pixel's standard error */
+    if (command->denoise.enabled) { /* denoising is limited by each pixel's standard error */
         command->target.error_map = true;
+        command->target.independent_pixels = command->target.error == 0.0;
+    }
     if (command->denoise.enabled &&
         command->options.filter == NULL) /* denoisers keep noise that pixels share */
         command->options.filter = "box";

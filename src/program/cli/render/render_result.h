@@ -123,6 +123,7 @@ typedef struct cli_target {
     uint64_t rays, rounds;
     aur_error_measure measure;
     bool error_map;
+    bool independent_pixels; /* as in aur_adaptive_options */
 } cli_target;
 
 extern const cli_option cli_target_options[]; /* cli_target */
