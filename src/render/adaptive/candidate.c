@@ -160,13 +160,25 @@ bool aur_candidate_is_black(const aur_candidate *candidate) {
 
 /* A bound of the part of a value's variance due to emitters that replicas may not have hit yet. */
 static double visible_variance(const aur_candidate *candidate, size_t i) {
-    const size_t pixel = i % candidate->replicas.pixel_count;
     const aur_visible_emitters *const visible = &candidate->visible;
+    const size_t pixel = i % candidate->replicas.pixel_count;
     const uint32_t samples = candidate->targets[i];
-    const aur_rare_light rare = {aur_visible_emitters_variance(visible, pixel, samples),
-                                 visible->share != NULL ? visible->share[pixel] : 0.0, samples,
-                                 (double)candidate->replicas.count};
+    const double variance = aur_visible_emitters_variance(visible, pixel, samples);
+    if (variance == 0.0)
+        return 0.0;
+    const aur_rare_light rare = {variance, visible->share[pixel], samples, (double)candidate->replicas.count};
     return aur_error_variance_bound(candidate->error_measure, &candidate->weights[pixel], &rare);
+}
+
+/* The power computed last: neighbours get equal numbers of samples. */
+typedef struct power {
+    double of, is;
+} power;
+
+static double power_of(power *last, double x, double exponent) {
+    if (x != last->of)
+        *last = (power){x, pow(x, exponent)};
+    return last->is;
 }
 
 bool aur_candidate_plan(aur_candidate *candidate, double factor) {
@@ -184,12 +196,13 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
         round_to_patterns(candidate);
     }
     double before = 0.0, after = 0.0;
+    power fall = {.of = 1.0, .is = 1.0};
     for (size_t i = 0; i < candidate->value_count; ++i) {
         before += candidate->earlier[i];
         after += candidate->targets[i];
         if (candidate->targets[i] > candidate->earlier[i]) /* what the variances are expected to be then */
-            candidate->variances[i] *=
-                pow((double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
+            candidate->variances[i] *= power_of(
+                &fall, (double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
     }
     candidate->rays_before = aur_replicas_rays(&candidate->replicas);
     candidate->rays_planned = before > 0.0 ? candidate->rays_before * (after / before - 1.0) : 0.0;
@@ -227,6 +240,7 @@ static void pool_pixel(aur_pixel_spread *pool, double before, double variance, d
 static void pool_pixels(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
     double measured = 0.0, pooled = 0.0;
+    power fall = {.of = 1.0, .is = 1.0};
     for (size_t i = 0; i < replicas->pixel_count; ++i) {
         double now = 0.0;
         for (size_t r = 0; r < replicas->count; ++r) {
@@ -236,7 +250,8 @@ static void pool_pixels(aur_candidate *candidate) {
         const double growth =
             samples_in(candidate, candidate->earlier, i) / samples_in(candidate, candidate->targets, i);
         if (candidate->rounds > 1)
-            pool_pixel(&candidate->pixels[i], pow(growth, candidate->rate), now, candidate->spreads[i]);
+            pool_pixel(&candidate->pixels[i], power_of(&fall, growth, candidate->rate), now,
+                       candidate->spreads[i]);
         else
             candidate->pixels[i] = (aur_pixel_spread){now, candidate->spreads[i]};
         measured += now;

@@ -132,35 +132,43 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t co
                          .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
 }
 
-/* Values of a block's pixels in all replicas: of pixel i in replica r the entry r * BLOCK_PIXELS + i. */
-enum { BLOCK_PIXELS = BLOCK * BLOCK };
-typedef double block_values[AUR_REPLICAS_MAX * BLOCK_PIXELS][3];
+/* Values of a tile's pixels in all replicas: of pixel i in replica r the entry r * TILE_PIXELS + i. */
+enum { TILE = AUR_TILE_SIZE, TILE_PIXELS = TILE * TILE };
+typedef double tile_values[AUR_REPLICAS_MAX * TILE_PIXELS][3];
 
-static void read_block(const aur_replicas *replicas, const pixel_range *block, size_t first,
-                       block_values values) {
+static void read_tile(const aur_replicas *replicas, const pixel_range *tile, size_t first,
+                      tile_values values) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t width = layout->x1 - layout->x0;
-    const size_t corners[2] = {block->y0 * width + block->x0, (block->y1 - 1) * width + block->x1 - 1};
-    aur_replicas_read(replicas, corners, first, BLOCK_PIXELS, values);
+    const size_t corners[2] = {tile->y0 * width + tile->x0, (tile->y1 - 1) * width + tile->x1 - 1};
+    aur_replicas_read(replicas, corners, first, TILE_PIXELS, values);
+}
+
+/* Takes a tile's values over into `light`, and adds them to its means. */
+static void add_tile(const aur_replicas *replicas, const pixel_range *tile, size_t width, double (*light)[3],
+                     double (*means)[3]) {
+    tile_values read;
+    const size_t across = tile->x1 - tile->x0;
+    read_tile(replicas, tile, 0, read);
+    for (size_t y = tile->y0; y < tile->y1; ++y) {
+        const size_t pixel = y * width + tile->x0;
+        double *const mean = means[pixel];
+        memset(mean, 0, across * sizeof *means);
+        for (size_t r = 0; r < replicas->count; ++r) {
+            const double *const values = read[r * TILE_PIXELS + (y - tile->y0) * across];
+            memcpy(light[r * replicas->pixel_count + pixel], values, across * sizeof *light);
+            for (size_t i = 0; i < 3 * across; ++i)
+                mean[i] += values[i] / (double)replicas->count;
+        }
+    }
 }
 
 void aur_replicas_mean(const aur_replicas *replicas, double (*light)[3], double (*values)[3]) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t width = layout->x1 - layout->x0;
-    block_values block;
-    double d[3][AUR_REPLICAS_MAX];
-    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
-        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            const pixel_range at = cell_of(layout, BLOCK, column, row);
-            read_block(replicas, &at, 0, block);
-            for (size_t y = at.y0, i = 0; y < at.y1; ++y, i += at.x1 - at.x0) {
-                for (size_t x = 0; x < at.x1 - at.x0; ++x)
-                    find_deviations(replicas->count, BLOCK_PIXELS, (const double(*)[3])block + i + x,
-                                    values[y * width + at.x0 + x], d);
-                for (size_t r = 0; r < replicas->count; ++r)
-                    memcpy(light[r * replicas->pixel_count + y * width + at.x0], block[r * BLOCK_PIXELS + i],
-                           (at.x1 - at.x0) * sizeof *light);
-            }
+    for (size_t row = layout->y0 / TILE; row * TILE < layout->y1; ++row)
+        for (size_t column = layout->x0 / TILE; column * TILE < layout->x1; ++column) {
+            const pixel_range tile = cell_of(layout, TILE, column, row);
+            add_tile(replicas, &tile, layout->x1 - layout->x0, light, values);
         }
 }
 
@@ -295,7 +303,7 @@ static void develop_pixel(size_t count, size_t first, size_t step, const double 
                           float developed[6]) {
     const double part = (double)((count - first + step - 1) / step);
     double mean[3], d[3][AUR_REPLICAS_MAX];
-    find_deviations(count, BLOCK_PIXELS, values, mean, d);
+    find_deviations(count, TILE_PIXELS, values, mean, d);
     for (size_t c = 0; c < 3; ++c) {
         double squares = 0.0, sum = 0.0;
         for (size_t r = 0; r < count; ++r)
@@ -307,15 +315,15 @@ static void develop_pixel(size_t count, size_t first, size_t step, const double 
     }
 }
 
-/* Three channels from `channel` on, and `most` - 3 of their errors, of a block. */
-static void develop_block(const aur_replicas *replicas, const pixel_range *block, size_t first, size_t step,
-                          size_t channel, size_t most, aur_image *image) {
-    const size_t width = block->x1 - block->x0, count = width * (block->y1 - block->y0);
+/* Three channels from `channel` on, and `most` - 3 of their errors, of a tile. */
+static void develop_tile(const aur_replicas *replicas, const pixel_range *tile, size_t first, size_t step,
+                         size_t channel, size_t most, aur_image *image) {
+    const size_t width = tile->x1 - tile->x0, count = width * (tile->y1 - tile->y0);
     const size_t channels = aur_image_channel_count(image);
-    block_values values;
-    read_block(replicas, block, channel, values);
+    tile_values values;
+    read_tile(replicas, tile, channel, values);
     for (size_t i = 0; i < count; ++i) {
-        const size_t pixel = (block->y0 + i / width) * aur_image_width(image) + block->x0 + i % width;
+        const size_t pixel = (tile->y0 + i / width) * aur_image_width(image) + tile->x0 + i % width;
         float developed[6];
         develop_pixel(replicas->count, first, step, (const double(*)[3])values + i, developed);
         memcpy(aur_image_data(image) + pixel * channels + (channel == 0 ? 0 : channels - most), developed,
@@ -340,12 +348,12 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size
         aur_image_name_channel(*image, c, c < main_channels ? names[c] : taken[c - main_channels], NULL);
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
-    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
-        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            const pixel_range block = cell_of(layout, BLOCK, column, row);
-            develop_block(replicas, &block, first, step, 0, main_channels, *image);
+    for (size_t row = layout->y0 / TILE; row * TILE < layout->y1; ++row)
+        for (size_t column = layout->x0 / TILE; column * TILE < layout->x1; ++column) {
+            const pixel_range tile = cell_of(layout, TILE, column, row);
+            develop_tile(replicas, &tile, first, step, 0, main_channels, *image);
             if (channels > main_channels)
-                develop_block(replicas, &block, first, step, 3, channels - main_channels, *image);
+                develop_tile(replicas, &tile, first, step, 3, channels - main_channels, *image);
         }
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_unlock(aur_render_film(replicas->renders[r])->lock);
