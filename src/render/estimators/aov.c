@@ -38,18 +38,37 @@ static void albedo(const aov_sample *sample, float *values) {
     put(aur_bsdf_diffuse_albedo(surface->bsdf, surface->texture, side), values);
 }
 
-/* The weight of one sampled direction: on average the share of equal light from all directions, without what
- * refraction concentrates. */
+static aur_vector without_bending(aur_vector value, float ior_squared) {
+    return aur_vector_scale(value, ior_squared > 0.0f ? ior_squared : 1.0f);
+}
+
+/* The share of equal light from all directions that reaches the eye, without what refraction concentrates.
+ * Only lobes without a closed form are sampled: denoisers take this as free of noise. */
 static void reflectance(const aov_sample *sample, float *values) {
     const aur_surface *const surface = sample->surface;
+    const aur_bsdf *const bsdf = surface->bsdf;
     const aur_vector view =
         aur_frame_to_local(&surface->frame, aur_vector_scale(sample->ray->direction, -1.0f));
+    aur_vector sum = aur_bsdf_diffuse_albedo(bsdf, surface->texture, view.z);
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const size_t count = aur_bsdf_lobes(bsdf, surface->texture, view, lobes);
+    bool sampled = false;
+    for (size_t i = 0; i < count; ++i) {
+        if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
+            sum = aur_vector_add(sum, without_bending(lobes[i].coefficient, lobes[i].ior_squared));
+        else if (lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER && !lobes[i].diffuse)
+            sum = aur_vector_add_scaled(sum, 2.0f * AUR_PI_F / (lobes[i].exponent + 1.0f),
+                                        lobes[i].coefficient);
+        sampled = sampled || lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
+    }
     uint64_t hash = sample->hash;
     float u[3];
     aur_draw_units(&hash, u);
     aur_bsdf_sample drawn;
-    if (aur_bsdf_draw(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, view, u, &drawn))
-        put(aur_vector_scale(drawn.weight, drawn.ior_squared > 0.0f ? drawn.ior_squared : 1.0f), values);
+    if (sampled && aur_bsdf_draw(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, view, u, &drawn) &&
+        !drawn.specular)
+        sum = aur_vector_add(sum, without_bending(drawn.weight, drawn.ior_squared));
+    put(sum, values);
 }
 
 static void depth(const aov_sample *sample, float *values) {

@@ -16,7 +16,7 @@ AUREOLE_OIDN=$stub render -o none.exr --denoise --shard 1/2 2>message.txt
 [ $? -eq 2 ] && grep -q -- "'--denoise' cannot be used with '--shard'" message.txt || fail "a part: $(cat message.txt)"
 
 # What the camera sees of the lamp, as the features tell it: by the samples alone.
-render -o lights.exr --filter box --integrator path:max_depth=1,lamp_rays=0 --sampler sobol --spp 16 && "$aureole" convert lights.exr lights.pfm --channels R,G,B || fail "no lights"
+lights() { render -o lights.exr --filter box --integrator path:max_depth=1,lamp_rays=0 --sampler sobol --spp "$1" && "$aureole" convert lights.exr lights.pfm --channels R,G,B || fail "no lights"; }
 
 check() { # check NAME OPTION...: NAME.exr is made of what stands in it, and its noisy channels are the picture by the filter box without --denoise
   local name=$1
@@ -69,7 +69,9 @@ assert 0 < kept < 480 and (bound > 0) == os.path.exists("error.pfm"), (kept, bou
 END
 }
 command -v python3 >/dev/null || { echo "no python3: the values are not tested"; exit $((failures > 0 ? 1 : 77)); }
+lights 16
 check a --spp 2
+lights 8 # the fewest, where rays are counted
 check b --rounds 2
 # Four samples per pixel leave pixels far from all around them: the denoiser takes them away, and the limit brings none back.
 export STUB_BLURS=1

@@ -48,7 +48,7 @@ for what in minimum maximum; do
 done
 near "depth" "$(channel d.T minimum aov.exr)" 3 2e-3
 # White materials reflect or transmit all light, also those without a diffuse part.
-for material in mirror glass pane veil; do
+for material in white mirror glass pane plastic veil; do
   "$aureole" render "$source/tests/render/driver/white_bodies.xml" -q --spp 16 -Dmaterial=$material --integrator 'aov:aovs=(r:reflectance)' -o white.exr || fail "$material"
   near "reflectance of $material" "$(channel r.G maximum white.exr)" 1 1e-5
 done

@@ -24,10 +24,12 @@ void cli_denoise_end(cli_denoise *denoise) {
 /* Samples per pixel that take about a tenth of the image's rays. Fewer show in the denoised image, many more
  * do not. */
 static size_t feature_samples(const aur_adaptive *adaptive, size_t pixels) {
-    const double part = 0.1, rays_per_sample = 2.0, least = 16.0, most = 64.0;
+    const double part = 0.1, rays_per_sample = 2.0, least = 8.0, most = 64.0;
+    enum { UNKNOWN_RAYS = 16 };
     aur_adaptive_report report = {.size = sizeof report};
-    if (adaptive != NULL)
-        aur_adaptive_get_report(adaptive, &report, NULL);
+    if (adaptive == NULL)
+        return UNKNOWN_RAYS;
+    aur_adaptive_get_report(adaptive, &report, NULL);
     const double rays = (double)report.statistics.rays / (double)pixels;
     return (size_t)fmin(fmax(part * rays / rays_per_sample, least), most);
 }
