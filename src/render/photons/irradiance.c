@@ -13,11 +13,9 @@ static uint32_t texel_of(const aur_texels *texels, bool curved, uint32_t element
 
 /* Which light every photon adds to. */
 static void find_lights(const aur_irradiance_map *map, const aur_photon_map *photons, uint32_t *lights) {
-    const aur_elements *const elements = &map->texels.elements;
     for (size_t i = 0; i < photons->count; ++i) {
         const aur_photon *const photon = &photons->photons[i];
-        const uint32_t texel = texel_of(&map->texels, aur_element_is_curved(elements, photon->element),
-                                        photon->element, photon->coordinates);
+        const uint32_t texel = texel_of(&map->texels, photon->curved, photon->element, photon->coordinates);
         lights[i] = 2 * texel + (photon->behind ? 1 : 0);
     }
 }

@@ -85,6 +85,7 @@ static void arrive(wave *all, size_t i, unsigned parts) {
                            .power = from->power,
                            .element = aur_element_of(all->source->elements, &all->hits[i]),
                            .behind = aur_vector_dot(surface->geometric_normal, in) < 0.0f,
+                           .curved = aur_shape_is_curved(all->source->scene, surface->shape),
                            .glossy = (parts & AUR_SCATTERS_GLOSSY) != 0};
     aur_element_coordinates(all->source->scene, &all->hits[i], surface, photon->coordinates);
     all->numbers[all->photons.count++] = from->number;

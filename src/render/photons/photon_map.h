@@ -11,6 +11,7 @@ typedef struct aur_photon {
     uint32_t element;
     float coordinates[2]; /* on the element */
     bool behind;          /* it hit the back of the surface */
+    bool curved;          /* the element is no triangle */
     bool glossy;          /* the surface has glossy lobes, with or without a diffuse one */
 } aur_photon;
 

@@ -23,7 +23,6 @@ static void add_placement(const aur_scene *scene, aur_elements *elements, uint32
                         .count = (uint32_t)aur_shape_primitives(s),
                         .curved = s->curved != NULL};
     elements->count += aur_shape_primitives(s);
-    elements->any_curved = elements->any_curved || s->curved != NULL;
 }
 
 static void number_all(const aur_scene *scene, aur_elements *elements) {
@@ -65,22 +64,6 @@ void aur_elements_release(aur_elements *elements) {
     free(elements->shape_first);
     free(elements->instance_first);
     *elements = (aur_elements){0};
-}
-
-bool aur_element_is_curved(const aur_elements *elements, uint32_t element) {
-    if (!elements->any_curved)
-        return false;
-    /* The last placement that begins at or before the element; empty shapes begin at the same index as the
-     * next one. */
-    size_t low = 0, high = elements->placement_count;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (elements->placements[middle].first <= element)
-            low = middle;
-        else
-            high = middle;
-    }
-    return elements->placements[low].curved;
 }
 
 static const aur_instance *instance_of(const aur_scene *scene, const aur_placement *placement) {

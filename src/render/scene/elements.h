@@ -19,7 +19,6 @@ typedef struct aur_elements {
     /* The element of a hit is shape_first[shape] + primitive, plus instance_first[instance] for instances. */
     uint32_t *shape_first;
     uint32_t *instance_first;
-    bool any_curved;
 } aur_elements;
 
 /* Errors: MEMORY, ARGUMENT if 32 bits cannot number all elements. */
@@ -30,9 +29,6 @@ static inline uint32_t aur_element_of(const aur_elements *elements, const aur_hi
     const uint32_t first = elements->shape_first[hit->shape] + hit->primitive;
     return hit->instance == AUR_NO_INSTANCE ? first : elements->instance_first[hit->instance] + first;
 }
-
-/* Whether the element is a whole curved shape, or a segment of a curve. */
-bool aur_element_is_curved(const aur_elements *elements, uint32_t element);
 
 /* The area in square scene units. A curved shape in an instance is scaled by the mean scale of its map. */
 double aur_element_area(const aur_scene *scene, const aur_placement *placement, uint32_t primitive);

@@ -133,7 +133,7 @@ static inline float aur_survival(aur_vector beta) {
 
 /* The same for a particle, whose power a vertex changes: all survivors have nearly equal power. */
 static inline float aur_particle_survival(aur_vector before, aur_vector after) {
-    return fminf(aur_vector_max(after) / aur_vector_max(before), 1.0f);
+    return aur_smaller(aur_vector_max(after) / aur_vector_max(before), 1.0f);
 }
 
 /* Whether u in [0,1) lets a path survive; then its beta is divided by the survival probability. */
