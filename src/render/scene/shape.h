@@ -45,9 +45,10 @@ typedef struct aur_curved {
                     aur_vector tangents[2]);
     /* NULL for shapes that cannot be lights. */
     aur_shape_point (*sample)(const aur_shape *shape, float u, float v);
-    /* Samples a point visible from `reference`; *pdf is by solid angle. The second function returns that pdf.
+    /* Samples a point visible from `reference`; *pdf is by solid angle; with texture coordinates only if
+     * `textured`, because their arc functions take long. The second function returns that pdf.
      * Both may be NULL; false or 0 means: sample by area, as from inside. */
-    bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v,
+    bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v, bool textured,
                         aur_shape_point *point, float *pdf);
     float (*pdf_seen)(const aur_shape *shape, aur_vector reference);
     /* Maps texture coordinates such that equal areas of the primitive are equal areas of the unit square.

@@ -164,7 +164,7 @@ static float part_density(const area_light *light, uint32_t part) {
 }
 
 /* Samples by the solid angle visible from the reference, for shapes that support it. */
-static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query,
+static aur_shape_point sample_seen(const area_light *light, bool textured, const aur_light_query *query,
                                    area_density *density) {
     const aur_curved *const curved = light->shape->curved;
     const aur_light_reference *const reference = &query->reference;
@@ -172,7 +172,7 @@ static aur_shape_point sample_seen(const area_light *light, const aur_light_quer
     aur_shape_point point;
     *density = (area_density){0.0f, false};
     if (curved != NULL && curved->sample_seen != NULL &&
-        curved->sample_seen(light->shape, reference->position, u[1], u[2], &point, &density->value))
+        curved->sample_seen(light->shape, reference->position, u[1], u[2], textured, &point, &density->value))
         return point;
     if (light->is_rectangle) {
         const aur_seen_rectangle seen = aur_rectangle_see(&light->rectangle.rectangle, reference);
@@ -237,7 +237,8 @@ static bool finish_sample(const aur_emitter *emitter, aur_vector reference, cons
 
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     area_density density;
-    const aur_shape_point point = sample_seen(emitter->data, query, &density);
+    const aur_shape_point point =
+        sample_seen(emitter->data, emitter->radiance.texture != NULL, query, &density);
     return finish_sample(emitter, query->reference.position, &point, density, drawn);
 }
 

@@ -36,13 +36,17 @@ static aur_vector point_of(const aur_shape *shape, aur_vector normal) {
                         (float)((double)shape->center.z + scale * n[2])};
 }
 
-/* The point with this unit normal before flipping. */
-static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
+static aur_bsdf_point texture_at(const aur_shape *shape, aur_vector normal) {
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
-    aur_shape_point point = {
-        .texture = {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+    return (aur_bsdf_point){.u = aur_shape_azimuth(x, y),
+                            .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F};
+}
+
+/* The point with this unit normal before flipping. */
+static aur_shape_point point_at(const aur_shape *shape, aur_vector normal, bool textured) {
+    aur_shape_point point = {.texture = textured ? texture_at(shape, normal) : (aur_bsdf_point){0}};
     aur_round_point(point_of(shape, normal), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + shape->radius, &point);
     return point;
@@ -52,7 +56,7 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
                     aur_vector tangents[2]) {
     (void)hit;
     const aur_vector normal = aur_vector_normalize(aur_vector_subtract(position, shape->center));
-    *point = point_at(shape, normal);
+    *point = point_at(shape, normal, true);
     if (tangents == NULL)
         return;
     /* The axes of a mirrored sphere are left-handed. */
@@ -68,7 +72,7 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
 }
 
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {
-    return point_at(shape, aur_sample_sphere(u, v));
+    return point_at(shape, aur_sample_sphere(u, v), true);
 }
 
 /* 1 - cos of the sphere's half angle; 2 from inside. A sphere that faces inwards is seen only from inside,
@@ -87,7 +91,7 @@ static float pdf_seen(const aur_shape *shape, aur_vector reference) {
 }
 
 /* Samples a direction uniformly in the cone that the sphere subtends. */
-static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, float v,
+static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, float v, bool textured,
                         aur_shape_point *point, float *pdf) {
     const float cap = seen_cap(shape, reference);
     if (!(cap < 2.0f))
@@ -105,7 +109,7 @@ static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, f
     const aur_vector direction =
         aur_frame_to_world(&frame, (aur_vector){sine * cosf(angle), sine * sinf(angle), cosine});
     const aur_vector position = aur_vector_add_scaled(reference, near_distance, direction);
-    *point = point_at(shape, aur_vector_normalize(aur_vector_subtract(position, shape->center)));
+    *point = point_at(shape, aur_vector_normalize(aur_vector_subtract(position, shape->center)), textured);
     *pdf = 1.0f / (2.0f * AUR_PI_F * cap);
     return true;
 }
