@@ -205,13 +205,17 @@ void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
     aur_adaptive_bound_others(adaptive);
 }
 
-/* Adds blocks where the differences between them dominate, else samples. */
-static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
-    aur_corrections *const corrections = &adaptive->corrections;
+/* More samples narrow the interval of the bias, not more blocks. */
+static bool are_samples_due(const aur_adaptive *adaptive) {
+    const aur_corrections *const corrections = &adaptive->corrections;
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const bool more_samples = bias->half * bias->half <= 2.0 * bias->of_noise * bias->of_noise ||
-                              corrections->rendered == corrections->blocks.count;
-    const aur_result result = aur_corrections_grow(corrections, more_samples, &adaptive->cancelled, error);
+    return bias->half * bias->half <= 2.0 * bias->of_noise * bias->of_noise ||
+           corrections->rendered == corrections->blocks.count;
+}
+
+static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
+    const aur_result result =
+        aur_corrections_grow(&adaptive->corrections, are_samples_due(adaptive), &adaptive->cancelled, error);
     bound_bias_by(adaptive, adaptive->target.measure);
     return result;
 }
@@ -229,30 +233,32 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
-/* What is left to do: the squares of the noise's bound and of the width of the bias's interval fall in
- * proportion to one over their rays. At the least work, what the interval's lower end leaves of the square of
- * the error is divided between both in proportion to the roots of rays times squares. */
+/* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,
+ * and the rays of both, at the least work. The noise's square falls in proportion to one over rays, the width
+ * of the bias's interval too by more samples, but to the root by more blocks. */
 typedef struct rest_of_work {
-    double width; /* of the bias's interval, then */
-    double rays;  /* of samples and corrections until then; INFINITY: the bias is larger than the error */
+    double noise, bias;
+    double rays; /* INFINITY: the bias is larger than the error */
 } rest_of_work;
 
-static double width_of(const aur_adaptive *adaptive) {
-    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    return bias->high - bias->low;
-}
-
 static rest_of_work find_rest(const aur_adaptive *adaptive) {
-    const double bound = adaptive->candidate.bound, noise = bound * bound, now = width_of(adaptive);
-    const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
-    const double corrections = aur_replicas_rays(&adaptive->corrections.replicas);
-    const double square =
-        adaptive->target.error * adaptive->target.error - adaptive->bias[adaptive->target.measure].low;
-    const double of_noise = sqrt(rays * noise), of_bias = sqrt(corrections * now);
-    const double best = fmin(square * of_noise / (of_noise + of_bias), noise), width = square - best;
-    if (!(square > 0.0))
-        return (rest_of_work){0.0, INFINITY};
-    return (rest_of_work){width, rays * (noise / best - 1.0) + corrections * fmax(now / width - 1.0, 0.0)};
+    enum { DIVISIONS = 64 };
+    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
+    const double square = adaptive->target.error * adaptive->target.error;
+    const double certain = fmax(bias->estimate - 0.5 * bias->half, 0.0);
+    const double noise = adaptive->candidate.bound * adaptive->candidate.bound;
+    rest_of_work least = {0.0, 0.0, INFINITY};
+    for (int k = 1; k < DIVISIONS && square > certain; ++k) {
+        const double x = fmin((square - certain) * k / DIVISIONS, noise);
+        const double growth = fmax((bias->high - certain) / (square - x - certain), 1.0);
+        const double rays =
+            (noise > x ? noise / x - 1.0 : 0.0) * aur_replicas_rays(&adaptive->candidate.replicas) +
+            (pow(growth, are_samples_due(adaptive) ? 1.0 : 2.0) - 1.0) *
+                aur_replicas_rays(&adaptive->corrections.replicas);
+        if (rays < least.rays)
+            least = (rest_of_work){x, square - x, rays};
+    }
+    return least;
 }
 
 static bool is_met(const aur_adaptive *adaptive) {
@@ -272,7 +278,7 @@ static aur_result make_room(aur_adaptive *adaptive, bool *again, aur_error *erro
         *again = true;
         return reject(adaptive, false, error);
     }
-    if (width_of(adaptive) > rest.width)
+    if (adaptive->bias[adaptive->target.measure].high > rest.bias)
         return correct(adaptive, error);
     while (adaptive->level >= bound * bound)
         adaptive->level *= AUR_NEXT_NOISE_LEVEL;
@@ -287,9 +293,9 @@ static bool are_corrections_due(const aur_adaptive *adaptive) {
     const bool bounded = adaptive->target.error > 0.0;
     if (adaptive->corrections.steps == 0)
         return true;
-    return 2.0 * aur_replicas_rays(&adaptive->corrections.replicas) <=
+    return 1.5 * aur_replicas_rays(&adaptive->corrections.replicas) <=
                fmin(CORRECTIONS_PART * rays, reserve) &&
-           !(bounded && width_of(adaptive) <= find_rest(adaptive).width);
+           !(bounded && adaptive->bias[adaptive->target.measure].high <= find_rest(adaptive).bias);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {

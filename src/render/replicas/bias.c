@@ -134,13 +134,21 @@ void aur_corrections_release(aur_corrections *corrections) {
     *corrections = (aur_corrections){.steps = 0};
 }
 
+/* Half as many again, in whole units. */
+static size_t next_count(size_t count, size_t unit) {
+    return count + (count / unit + 1) / 2 * unit;
+}
+
 aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples, const atomic_bool *cancelled,
                                 aur_error *error) {
     const bool first = corrections->steps == 0;
-    const size_t all = corrections->blocks.count;
-    const size_t target = first ? FIRST_BLOCKS : corrections->rendered * (more_samples ? 1 : 2);
+    const size_t all = corrections->blocks.count, rendered = corrections->rendered;
+    const size_t target = first ? FIRST_BLOCKS : more_samples ? rendered : next_count(rendered, 1);
     const size_t blocks = target < all ? target : all;
-    const uint32_t samples = corrections->samples * (!first && more_samples ? 2 : 1);
+    const uint32_t pattern = aur_render_integrator(corrections->replicas.renders[0])->samples_a_pattern;
+    const uint32_t samples = first || !more_samples
+                                 ? corrections->samples
+                                 : (uint32_t)next_count(corrections->samples, pattern > 0 ? pattern : 1);
     for (size_t b = 0; b < blocks; ++b) {
         size_t pixels[AUR_BLOCK_PIXELS];
         const size_t count = aur_blocks_pixels(&corrections->blocks, corrections->blocks.order[b], pixels);

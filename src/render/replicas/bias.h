@@ -46,7 +46,7 @@ aur_result aur_corrections_create(aur_renderer *renderer, const aur_render_optio
                                   const char *integrator, size_t replica_count, aur_corrections *corrections,
                                   aur_error *error);
 void aur_corrections_release(aur_corrections *corrections);
-/* Renders the first blocks, then twice as many samples or blocks. Errors: CANCELLED, MEMORY. */
+/* Renders the first blocks, then half as many samples or blocks again. Errors: CANCELLED, MEMORY. */
 aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples, const atomic_bool *cancelled,
                                 aur_error *error);
 /* The same steps again. */
