@@ -42,6 +42,7 @@ static const struct field {
     FIELD(race.entries[AUR_RACE_LONG].need),
     FIELD(race.entries[AUR_RACE_CANDIDATES].need),
     FIELD(race.entries[AUR_RACE_EIGHT].need),
+    FIELD(race.entries[AUR_RACE_FOUR].need),
     FIELD(candidate.rate),
     FIELD(candidate.finished),
     FIELD(candidate.rays_before),

@@ -22,7 +22,7 @@ static const double CANDIDATES_PRICE = 1.2;
 /* The shortest time limit for which a race is worthwhile, and the shortest for one of all first blocks. */
 static const double LEAST_SECONDS = 0.3, LONG_SECONDS = 2.0;
 /* Samples per pixel that a replica of each row renders: whole patterns. */
-static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2};
+static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2, 2};
 
 static void set_reason(aur_race_entry *entry, bool out, const char *reason) {
     entry->out = out;
@@ -69,7 +69,8 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
 
 /* Films whose pixels share samples have separate cells, for all candidates equally. */
 static bool reads_neighbours(size_t row, const aur_replicas *replicas) {
-    return row == AUR_RACE_SHARED && aur_render_film(replicas->renders[0])->layout.cell == 0;
+    return (row == AUR_RACE_SHARED || row == AUR_RACE_FOUR) &&
+           aur_render_film(replicas->renders[0])->layout.cell == 0;
 }
 
 /* Sets targets for a block's pixels, and for those that are at most `border` away from it. */
@@ -172,7 +173,7 @@ static double price(const aur_race_entry *entry, size_t row) {
 
 /* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
 static double least_work(const aur_race *race, size_t row) {
-    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0};
+    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0};
     const aur_race_entry *const entry = &race->entries[row];
     const double map = aur_race_gathers(row) ? aur_race_least_map(race->replica_count) : 0.0;
     const double pixels = (double)(race->width * race->height * race->replica_count);
@@ -285,8 +286,19 @@ static bool fits(const aur_race *race, size_t row) {
  * block. */
 static double first_rung(const aur_race *race, size_t row) {
     const aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
-    const double border = row == AUR_RACE_SHARED ? 2.0 : 1.0;
+    const double border = row == AUR_RACE_SHARED || row == AUR_RACE_FOUR ? 2.0 : 1.0;
     return border * middle->rays * (double)samples_of[row] / (double)samples_of[AUR_RACE_MIDDLE];
+}
+
+/* The smallest pattern, where a single one of the next larger reaches the target. */
+static aur_result run_smallest(aur_race *race, size_t blocks, aur_error *error) {
+    const aur_race_entry *const shared = &race->entries[AUR_RACE_SHARED];
+    const aur_result result = measure(race, blocks, error);
+    if (result == AUR_OK && race->error > 0.0 && is_measured(shared, blocks) &&
+        shared->need <= least_work(race, AUR_RACE_SHARED))
+        return render_blocks(race, AUR_RACE_FOUR, blocks, error);
+    set_reason(&race->entries[AUR_RACE_FOUR], true, "not tried: only for coarse targets");
+    return result;
 }
 
 /* Renders the first blocks with other rows, those most different first, while their work is small next to the
@@ -401,6 +413,8 @@ static aur_result run(aur_race *race, aur_error *error) {
     result = measure(race, blocks, error);
     if (result == AUR_OK)
         result = run_others(race, blocks, error);
+    if (result == AUR_OK)
+        result = run_smallest(race, blocks, error);
     return result == AUR_OK ? run_rungs(race, blocks, error) : result;
 }
 

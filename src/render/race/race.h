@@ -17,6 +17,7 @@ enum {
     AUR_RACE_LONG,
     AUR_RACE_CANDIDATES,
     AUR_RACE_EIGHT,
+    AUR_RACE_FOUR,
     AUR_RACE_ROWS
 };
 

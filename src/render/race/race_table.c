@@ -12,7 +12,8 @@ enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 
 /* Path tracing; final gathering by 8 directions shared with neighbours; by 32, with 4 and with 16 light
  * samples; and without short rays; paths with two candidates for each light sample; gathering by 8 directions
- * that are not shared, in place of the shared ones. A correction has only `keys`: nothing is shared. */
+ * that are not shared, in place of the shared ones; and by 4 that are. A correction has only `keys`: nothing
+ * is shared. */
 typedef struct race_row {
     const char *name, *keys, *more;
 } race_row;
@@ -31,6 +32,8 @@ static const race_row rows[AUR_RACE_ROWS] = {
     [AUR_RACE_CANDIDATES] = {"path-2", "candidates=2", NULL},
     [AUR_RACE_EIGHT] = {"gather-8", "split=1,diffuse_samples=8,glossy_samples=4,light_samples=4",
                         ",edges=96"},
+    [AUR_RACE_FOUR] = {"gather-4-shared", "split=1,diffuse_samples=4,glossy_samples=4,light_samples=2",
+                       ",edges=48,share=near"},
 };
 
 const char *aur_race_name(size_t row) {

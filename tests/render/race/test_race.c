@@ -155,6 +155,19 @@ static void test_time(void **state) {
     end(&f);
 }
 
+/* The smallest pattern is tried where one sample per pixel and replica reaches the target, and only there. */
+static void test_coarse(void **state) {
+    (void)state;
+    fixture f;
+    run(indirect, 0.6, 96, 96, &f);
+    assert_true(f.race.entries[AUR_RACE_FOUR].blocks > 0);
+    assert_true(f.race.entries[AUR_RACE_FOUR].need < f.race.entries[AUR_RACE_SHARED].need);
+    end(&f);
+    run(indirect, 0.02, 96, 96, &f);
+    assert_true(f.race.entries[AUR_RACE_SHARED].blocks > 0 && f.race.entries[AUR_RACE_FOUR].blocks == 0);
+    end(&f);
+}
+
 /* Pixels whose image is denoised share no directions. */
 static void test_apart(void **state) {
     (void)state;
@@ -243,7 +256,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win),  cmocka_unit_test(test_paths_win),
                                        cmocka_unit_test(test_candidates),   cmocka_unit_test(test_no_race),
                                        cmocka_unit_test(test_no_choice),    cmocka_unit_test(test_small_race),
-                                       cmocka_unit_test(test_shared_block), cmocka_unit_test(test_time),
-                                       cmocka_unit_test(test_apart)};
+                                       cmocka_unit_test(test_shared_block), cmocka_unit_test(test_coarse),
+                                       cmocka_unit_test(test_time),         cmocka_unit_test(test_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
