@@ -19,29 +19,50 @@ bool aur_gather_pools(const aur_gather_points *surface_points, const aur_gather_
            surface_points->bounces == 0;
 }
 
+/* Whether all rotations of a tile derive from one hash. */
+static bool rotates_by_tile(const aur_gather_plan *plan, const aur_gather_rule *rule) {
+    return plan->policy.decorrelation == AUR_DECORRELATION_BLUE && rule->rotation_count > 0;
+}
+
+static uint64_t tile_hash(const aur_gather_points *surface_points, uint64_t lobe) {
+    const aur_gather_plan *const plan = surface_points->plan;
+    const uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
+                                    surface_points->bounces, lobe);
+    /* Without splitting, each sample of a pixel gets another rotation. */
+    return plan->rules.whole ? aur_hash2(tile, surface_points->index) : tile;
+}
+
+/* Of a nested rule, for several lanes. */
+static void nested_rotations(const aur_gather_points *surface_points, const aur_gather_rule *rule,
+                             uint32_t lanes, uint64_t lobe, aur_gather_rotation rotations[AUR_PACKET_SIZE]) {
+    const uint64_t tile = tile_hash(surface_points, lobe);
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+    const float cosine = cosf(angle), sine = sinf(angle);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const size_t pixel = aur_group_pixel(surface_points->arrangement, surface_points->group, lane);
+        const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
+        rotations[lane] = aur_gather_rotation_by(rule->rotations[number], cosine, sine);
+    }
+}
+
 aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_points,
                                            const aur_gather_lobe_rule *lobe_rule, size_t lane,
                                            uint64_t lobe) {
     const aur_gather_plan *const plan = surface_points->plan;
-    const aur_gather_settings *const policy = &plan->policy;
     const aur_gather_rule *const rule = &lobe_rule->rule;
-    if (policy->decorrelation == AUR_DECORRELATION_NONE)
+    if (plan->policy.decorrelation == AUR_DECORRELATION_NONE)
         return aur_gather_rule_rotation(rule, 0);
-    if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
+    if (!rotates_by_tile(plan, rule))
         return aur_gather_rule_rotation(
             rule, aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->pixels[lane]),
                             surface_points->bounces, lobe));
-    uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
-                              surface_points->bounces, lobe);
-    /* Without splitting, each sample of a pixel gets another rotation. */
-    if (plan->rules.whole)
-        tile = aur_hash2(tile, surface_points->index);
     if (rule->nested) {
-        const size_t pixel = aur_group_pixel(surface_points->arrangement, surface_points->group, lane);
-        const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
-        const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
-        return aur_gather_rotation_by(rule->rotations[number], cosf(angle), sinf(angle));
+        aur_gather_rotation rotations[AUR_PACKET_SIZE];
+        nested_rotations(surface_points, rule, 1u << lane, lobe, rotations);
+        return rotations[lane];
     }
+    const uint64_t tile = tile_hash(surface_points, lobe);
     const uint32_t rank =
         aur_gather_splits(surface_points, lobe_rule) ? 0 : aur_group_rank(surface_points->group);
     /* Sixteen patterns repeated in every tile would be visible as texture. */
@@ -172,6 +193,9 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
                                 .lanes = lanes,
                                 .together = rotate_together(surface_points->plan, &rule->rule)};
     const size_t first = aur_first_lane(lanes);
+    const bool nested = rule->rule.nested && rotates_by_tile(surface_points->plan, &rule->rule);
+    if (nested)
+        nested_rotations(surface_points, &rule->rule, lanes, lobe, sweep->rotations);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_point *const surface_point = &surface_points->at[lane];
@@ -179,9 +203,10 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
         if (bsdf_lobe->factor != NULL)
             sweep->factored |= 1u << lane;
         sweep->times_cosine[lane] = bsdf_lobe->times_cosine;
-        sweep->rotations[lane] = sweep->together && lane != first
-                                     ? sweep->rotations[first]
-                                     : aur_gather_rotation_at(surface_points, rule, lane, lobe);
+        if (!nested)
+            sweep->rotations[lane] = sweep->together && lane != first
+                                         ? sweep->rotations[first]
+                                         : aur_gather_rotation_at(surface_points, rule, lane, lobe);
         const aur_frame frame = aur_frame_about(aur_gather_point_axis(surface_point, lobe));
         aur_gather_set_frame(surface_point, lane, &frame, &sweep->frames, rays);
     }
@@ -208,10 +233,14 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane
     for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_rotation *const rotation = &sweep->rotations[lane];
-        weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
+        if (rule->square == NULL) {
+            weight[lane] = aur_gather_rule_stored(rule, rotation, index, &direction);
+            density[lane] = directions * rule->densities[rotation->first + index];
+        } else {
+            weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
+            density[lane] = directions * aur_gather_rule_density(rule, direction.z);
+        }
         aur_lane_set(local, lane, direction);
-        density[lane] = directions * (rule->square != NULL ? aur_gather_rule_density(rule, direction.z)
-                                                           : rule->densities[rotation->first + index]);
     }
 }
 

@@ -275,11 +275,7 @@ float aur_gather_rule_direction(const aur_gather_rule *rule, const aur_gather_ro
         *direction = scrambled_direction(rule, rotation, index);
         return weight_at(rule, direction->z);
     }
-    const size_t at = rotation->first + index;
-    const float x = rule->x[at], y = rule->y[at];
-    *direction = (aur_vector){rotation->cosine * x - rotation->sine * y,
-                              rotation->sine * x + rotation->cosine * y, rule->z[at]};
-    return rule->weights[at];
+    return aur_gather_rule_stored(rule, rotation, index, direction);
 }
 
 void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotation *rotation, size_t index,

@@ -83,6 +83,16 @@ float aur_gather_rule_density(const aur_gather_rule *rule, float cosine);
 float aur_gather_rule_direction(const aur_gather_rule *rule, const aur_gather_rotation *rotation,
                                 size_t index, aur_vector *direction);
 
+/* The same of a rule whose directions are in its arrays: `square` is NULL. */
+static inline float aur_gather_rule_stored(const aur_gather_rule *rule, const aur_gather_rotation *rotation,
+                                           size_t index, aur_vector *direction) {
+    const size_t at = rotation->first + index;
+    const float x = rule->x[at], y = rule->y[at];
+    *direction = (aur_vector){rotation->cosine * x - rotation->sine * y,
+                              rotation->sine * x + rotation->cosine * y, rule->z[at]};
+    return rule->weights[at];
+}
+
 /* Direction `index` of a rule of exponent 0 (uniform over the hemisphere) as a point of the unit square: its
  * azimuth, and the distance of its height from the pole. */
 void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotation *rotation, size_t index,
