@@ -226,9 +226,9 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, uint3
         plan, query->hit.geomID[lane], element, texel, query->hit.u[lane], query->hit.v[lane], behind);
     const float weight =
         plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, map_light.radiance) : 1.0f;
-    const uint64_t hash = aur_gather_rays_hash(rays, lane);
     const bool near = aur_continuation_is_near(&plan->continuation, query->ray.tfar[lane], map_light.area);
-    if (!near && !aur_continuation_is_due(&plan->continuation, hash))
+    if (!near && !(plan->continuation.share > 0.0f &&
+                   aur_continuation_is_due(&plan->continuation, aur_gather_rays_hash(rays, lane))))
         return aur_vector_scale(
             aur_vector_add(aur_continuation_uncorrected(&plan->continuation, map_light.radiance),
                            map_light.caustics),
@@ -239,7 +239,7 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, uint3
     aur_scene_surface(plan->scene, &ray, &hit, &start->surface);
     start->view = aur_vector_scale(ray.direction, -1.0f);
     start->edges = 2;
-    start->hash = hash;
+    start->hash = aur_gather_rays_hash(rays, lane);
     start->near = near;
     start->map_radiance = map_light.radiance;
     wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays);
@@ -263,7 +263,13 @@ static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packe
 /* Sets texels, and fetches their light. */
 static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
                         gather_hits *all) {
-    for (uint32_t rest = all->found; rest != 0; rest &= rest - 1) {
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    for (uint32_t rest = all->plain; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        all->element[lane] = map->texels.elements.shape_first[hits->geomID[lane]] + hits->primID[lane];
+        __builtin_prefetch(&map->texels.ranges[all->element[lane]]);
+    }
+    for (uint32_t rest = all->found & ~all->plain; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_hit hit = aur_packet_hit(scene, packet, lane);
         all->element[lane] = aur_element_of(&map->texels.elements, &hit);
@@ -271,9 +277,8 @@ static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, c
     }
     for (uint32_t rest = all->found; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const struct RTCHit16 *const hit = &packet->query.hit;
         all->texel[lane] =
-            aur_texel_of_triangle(map->texels.ranges[all->element[lane]], hit->u[lane], hit->v[lane]);
+            aur_texel_of_triangle(map->texels.ranges[all->element[lane]], hits->u[lane], hits->v[lane]);
         const size_t light = 2 * (size_t)all->texel[lane];
         __builtin_prefetch(&map->lights[light]);
         if (map->member_first != NULL)
@@ -283,6 +288,8 @@ static void find_texels(const aur_irradiance_map *map, const aur_scene *scene, c
 
 /* Draws a point on a light for each surface that needs one. */
 static void draw_lights(const aur_gather_plan *plan, const aur_gather_rays *rays, gather_hits *all) {
+    if ((all->found & ~all->plain) == 0)
+        return;
     aur_lane_vectors positions = {0}, normals = {0};
     aur_lane_numbers choice = {0}, u = {0}, v = {0};
     uint32_t drawn = 0;
