@@ -29,6 +29,24 @@ static void test_rounds_to_an_error_take_what_it_needs(void **state) {
     }
 }
 
+/* On the way to a goal that leaves room for a bias, rounds lead to each level of the noise first, so that the
+ * rounds of a smaller goal begin with those of a larger one. */
+static void test_rounds_pause_at_levels(void **state) {
+    (void)state;
+    const double error = 0.04, noise = 0.5 * error;
+    double level = AUR_NOISE_LEVEL;
+    for (double bound = 0.05; level * error * error > noise * noise; level *= AUR_NEXT_NOISE_LEVEL) {
+        aur_candidate candidate = {.bound = bound, .rate = 1.0};
+        candidate.intervals[candidate.error_measure] = (aur_error_interval){.estimate = bound, .high = bound};
+        const aur_goal goal = {.error = error, .noise = noise}, paused = {error, error * sqrt(level), 0};
+        const double factor = aur_candidate_factor(&candidate, &goal);
+        assert_true(fabs(factor / aur_candidate_factor(&candidate, &paused) - 1.0) < 1e-12);
+        bound = 0.99 * paused.noise;
+        assert_true(factor < bound * bound / (candidate.bound * candidate.bound));
+    }
+    assert_true(level < 0.25);
+}
+
 static void test_reaches_the_factor_at_equal_gains(void **state) {
     (void)state;
     enum { PIXELS = 6 };
@@ -87,6 +105,7 @@ static void test_nobody_is_left_behind(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rounds_to_an_error_take_what_it_needs),
+                                       cmocka_unit_test(test_rounds_pause_at_levels),
                                        cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
                                        cmocka_unit_test(test_limits),
                                        cmocka_unit_test(test_nobody_is_left_behind)};
