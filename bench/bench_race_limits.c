@@ -16,12 +16,12 @@ typedef struct variant {
 } variant;
 
 static const variant variants[] = {
-    {"as they are", {18, 0.1, 0.05, 0.95}},     {"first blocks 9", {9, 0.1, 0.05, 0.95}},
-    {"first blocks 36", {36, 0.1, 0.05, 0.95}}, {"first part .05", {18, 0.05, 0.05, 0.95}},
-    {"first part .2", {18, 0.2, 0.05, 0.95}},   {"part .025", {18, 0.1, 0.025, 0.95}},
-    {"part .1", {18, 0.1, 0.1, 0.95}},          {"confidence .8", {18, 0.1, 0.05, 0.8}},
-    {"confidence .99", {18, 0.1, 0.05, 0.99}},  {"only the first blocks", {18, 0.1, 0.0, 0.95}},
-    {"without a race", {18, 0.0, 0.0, 0.95}},
+    {"as they are", {9, 0.2, 0.05, 0.95}},      {"first blocks 5", {5, 0.2, 0.05, 0.95}},
+    {"first blocks 18", {18, 0.2, 0.05, 0.95}}, {"first part .1", {9, 0.1, 0.05, 0.95}},
+    {"first part .4", {9, 0.4, 0.05, 0.95}},    {"part .025", {9, 0.2, 0.025, 0.95}},
+    {"part .1", {9, 0.2, 0.1, 0.95}},           {"confidence .8", {9, 0.2, 0.05, 0.8}},
+    {"confidence .99", {9, 0.2, 0.05, 0.99}},   {"only the first blocks", {9, 0.2, 0.0, 0.95}},
+    {"without a race", {9, 0.0, 0.0, 0.95}},
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
