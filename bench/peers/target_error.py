@@ -7,9 +7,10 @@
 Mitsuba is llvm_ad_rgb with multi-jittered samples and the scene's filter, on one thread. Its samples grow fourfold from 16 until the
 target is met or the next image would take more than --seconds; beyond, the power law between the last two errors gives the samples, and the line
 between their times the seconds. Its error is half the difference of two images with different seeds, by the measure of --measure as in
-docs/target-error.md, because path tracing has no bias. Only the render call counts, after a first one that compiles. Aureole's
-seconds are those of the whole process, until it reports that the target is met, that is, its upper confidence bound; Mitsuba has no bound.
-A ratio above 1 means that Aureole is faster. The last line has the median of the ratios and the least."""
+docs/target-error.md, because path tracing has no bias. Of Mitsuba only the render call counts, after a first one that compiles; of Aureole
+all from the loaded scene until it reports that the target is met, that is, its upper confidence bound; Mitsuba has no bound. A ratio above 1
+means that Aureole is faster. `whole` is the ratio with loading, and with Mitsuba's compilation. The last line has the median of the ratios and
+the least."""
 import argparse
 import json
 import math
@@ -50,7 +51,9 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
     with tempfile.NamedTemporaryFile("w", suffix=".xml", dir=os.path.dirname(os.path.abspath(path))) as copy:
         copy.write(text)
         copy.flush()
+        start = cpu_seconds(resource.RUSAGE_SELF)
         scene = mi.load_file(copy.name, parallel=False)
+        loading = cpu_seconds(resource.RUSAGE_SELF) - start
     dr.set_thread_count(1)
     sensor = scene.sensors()[0]
     parameters = mi.traverse(sensor)
@@ -63,6 +66,7 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
             start = cpu_seconds(resource.RUSAGE_SELF)
             images.append(np.array(mi.render(scene, sensor=sensor, spp=samples, seed=seed), dtype=np.float64)[:, :, :3])
             seconds.append(cpu_seconds(resource.RUSAGE_SELF) - start)
+        compiling = max(seconds[0] - statistics.mean(seconds[1:]), 0) if not found else compiling
         found.append((samples, error_of(images[1], images[2], measure), statistics.mean(seconds[1:])))
         met = found[-1][1] <= min(errors) or STEP * found[-1][2] > most_seconds or samples * STEP * width * height > MOST_LANES
         if met and len(found) > 1:
@@ -72,14 +76,15 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
     slope = math.log(least / error) / math.log(many / few)
     each = (more - less) / (many - few)
     counts = [many * (target / least) ** (1 / slope) for target in errors]
-    print(json.dumps({"seconds": [max(each * count / 2, more + each * (count - many)) for count in counts], "found": found, "slope": slope}))
+    seconds = [max(each * count / 2, more + each * (count - many)) for count in counts]
+    print(json.dumps({"seconds": seconds, "before": loading + compiling, "found": found, "slope": slope}))
 
 
 def ours(aureole, path, width, height, error, measure, most_seconds):
-    """Seconds to the target, and the program's report; None if the time limit is reached first."""
+    """Seconds of the process, and the program's report; None if the time limit is reached first."""
     with tempfile.TemporaryDirectory() as folder:
         before = cpu_seconds(resource.RUSAGE_CHILDREN)
-        run = subprocess.run([aureole, "render", path, "--width", str(width), "--height", str(height), "-t", "1", "--error", repr(error),
+        run = subprocess.run([aureole, "render", path, "--width", str(width), "--height", str(height), "-t", "1", "--no-cache", "--error", repr(error),
                               "--error-measure", measure, "--json", "-o", os.path.join(folder, "image.exr"), "--time-limit", str(most_seconds)],
                              capture_output=True, text=True)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - before
@@ -102,7 +107,7 @@ def main():
         width, height = map(int, given.child.split("x"))
         return mitsuba_child(given.scenes[0], width, height, given.errors, given.measure, given.seconds)
     ratios = []
-    print("| scene | error | Mitsuba | Aureole | ratio | integrator |\n|---|---|---|---|---|---|")
+    print("| scene | error | Mitsuba | Aureole | ratio | whole | integrator |\n|---|---|---|---|---|---|---|")
     for text in given.scenes:
         path, _, size = text.partition(".xml:")
         path, size = (path + ".xml", size) if size else (text, "160x120")
@@ -112,16 +117,18 @@ def main():
         child = subprocess.run([sys.executable, os.path.abspath(__file__), given.aureole, path, "--errors", errors, "--measure", given.measure,
                                 "--seconds", str(given.seconds), "--child", size], capture_output=True, text=True)
         if child.returncode != 0:
-            print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | |", flush=True)
+            print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | | |", flush=True)
             continue
         peer = json.loads(re.search(r'{"seconds".*', child.stdout)[0])  # after Mitsuba's warnings
         for error, theirs in zip(given.errors, peer["seconds"]):
-            seconds, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
-            if seconds is None:
-                print(f"| {name} | {error:g} | {theirs:.3g} | {report[0]} | | |", flush=True)
+            whole, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
+            if whole is None:
+                print(f"| {name} | {error:g} | {theirs:.3g} | {report[0]} | | | |", flush=True)
                 continue
+            seconds = report["cpu_seconds"]
             ratios.append(theirs / seconds)
-            print(f"| {name} | {error:g} | {theirs:.3g} | {seconds:.3g} | {ratios[-1]:.2f} | {report.get('integrator', '')[:60]} |", flush=True)
+            print(f"| {name} | {error:g} | {theirs:.3g} | {seconds:.3g} | {ratios[-1]:.2f} | {(theirs + peer['before']) / whole:.2f} "
+                  f"| {report.get('integrator', '')[:60]} |", flush=True)
     if ratios:
         print(f"{len(ratios)} ratios: median {statistics.median(ratios):.2f}, least {min(ratios):.2f}")
 
