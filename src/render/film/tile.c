@@ -35,8 +35,8 @@ static void draw_offsets(const aur_filter *filter, const float *u, float *offset
         offsets[k] = aur_filter_sample(filter, u[k]);
 }
 
-void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
-                      aur_camera_sample *samples) {
+void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y,
+                      const uint32_t *indices, aur_camera_sample *samples) {
     uint64_t pixels[AUR_TILE_SIZE] = {0};
     float u[AUR_TILE_SIZE], v[AUR_TILE_SIZE], s[AUR_TILE_SIZE], t[AUR_TILE_SIZE];
     float across[AUR_TILE_SIZE] = {0}, down[AUR_TILE_SIZE] = {0};
@@ -45,9 +45,9 @@ void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const
     for (size_t k = 0; k < count; ++k)
         pixels[k] = aur_hash3(view->seed, y[k], x[k]);
     if (view->has_lens)
-        aur_stream_pixels(view->sampler, count, pixels, index, AUR_PAIR_LENS, s, t);
+        aur_stream_samples(view->sampler, count, pixels, indices, AUR_PAIR_LENS, s, t);
     if (!view->pixel_centre) {
-        aur_stream_pixels(view->sampler, count, pixels, index, AUR_PAIR_FILTER, u, v);
+        aur_stream_samples(view->sampler, count, pixels, indices, AUR_PAIR_FILTER, u, v);
         draw_offsets(view->filter, u, across);
         draw_offsets(view->filter, v, down);
     }
@@ -60,7 +60,7 @@ void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const
     aur_camera_lanes rays;
     aur_camera_rays(view->scene, view->width, view->height, across, down, s, t, &rays);
     for (size_t k = 0; k < count; ++k) {
-        samples[k].stream = (aur_stream){view->sampler, pixels[k], index};
+        samples[k].stream = (aur_stream){view->sampler, pixels[k], indices[k]};
         samples[k].ray =
             (aur_ray){.origin = {rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]},
                       .nearest = rays.nearest[k],

@@ -54,10 +54,10 @@ typedef struct aur_view {
 /* Sample `index` of pixel (x, y), a function of these alone. */
 void aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
 
-/* The same for `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are not set.
- */
-void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
-                      aur_camera_sample *samples);
+/* Samples indices[k] of `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are
+ * not set. */
+void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y,
+                      const uint32_t *indices, aur_camera_sample *samples);
 
 enum { AUR_TILE_SIZE = 16, AUR_EXTRA_CHANNELS_MAX = 64 };
 

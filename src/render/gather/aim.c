@@ -24,23 +24,29 @@ static bool rotates_by_tile(const aur_gather_plan *plan, const aur_gather_rule *
     return plan->policy.decorrelation == AUR_DECORRELATION_BLUE && rule->rotation_count > 0;
 }
 
-static uint64_t tile_hash(const aur_gather_points *surface_points, uint64_t lobe) {
+static uint64_t tile_hash(const aur_gather_points *surface_points, size_t lane, uint64_t lobe) {
     const aur_gather_plan *const plan = surface_points->plan;
-    const uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
-                                    surface_points->bounces, lobe);
+    const uint64_t pattern = aur_gather_points_hash(surface_points, lane, surface_points->tile);
+    const uint64_t tile = aur_hash4(plan->seed, pattern, surface_points->bounces, lobe);
     /* Without splitting, each sample of a pixel gets another rotation. */
-    return plan->rules.whole ? aur_hash2(tile, surface_points->index) : tile;
+    return plan->rules.whole ? aur_hash2(tile, surface_points->index[lane]) : tile;
 }
 
 /* Of a nested rule, for several lanes. */
 static void nested_rotations(const aur_gather_points *surface_points, const aur_gather_rule *rule,
                              uint32_t lanes, uint64_t lobe, aur_gather_rotation rotations[AUR_PACKET_SIZE]) {
-    const uint64_t tile = tile_hash(surface_points, lobe);
-    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
-    const float cosine = cosf(angle), sine = sinf(angle);
+    const size_t first = aur_first_lane(lanes);
+    uint64_t tile = tile_hash(surface_points, first, lobe);
+    float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile), cosine = cosf(angle), sine = sinf(angle);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        const size_t pixel = aur_group_pixel(surface_points->arrangement, surface_points->group, lane);
+        const size_t lane = aur_first_lane(rest), pixel = surface_points->place[lane];
+        const uint64_t hash = surface_points->grouped ? tile : tile_hash(surface_points, lane, lobe);
+        if (hash != tile) {
+            tile = hash;
+            angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+            cosine = cosf(angle);
+            sine = sinf(angle);
+        }
         const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
         rotations[lane] = aur_gather_rotation_by(rule->rotations[number], cosine, sine);
     }
@@ -55,16 +61,17 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_poin
         return aur_gather_rule_rotation(rule, 0);
     if (!rotates_by_tile(plan, rule))
         return aur_gather_rule_rotation(
-            rule, aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->pixels[lane]),
-                            surface_points->bounces, lobe));
+            rule,
+            aur_hash4(plan->seed, aur_gather_points_hash(surface_points, lane, surface_points->pixels[lane]),
+                      surface_points->bounces, lobe));
     if (rule->nested) {
         aur_gather_rotation rotations[AUR_PACKET_SIZE];
         nested_rotations(surface_points, rule, 1u << lane, lobe, rotations);
         return rotations[lane];
     }
-    const uint64_t tile = tile_hash(surface_points, lobe);
+    const uint64_t tile = tile_hash(surface_points, lane, lobe);
     const uint32_t rank =
-        aur_gather_splits(surface_points, lobe_rule) ? 0 : aur_group_rank(surface_points->group);
+        aur_gather_splits(surface_points, lobe_rule) ? 0 : aur_group_rank(surface_points->group[lane]);
     /* Sixteen patterns repeated in every tile would be visible as texture. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
@@ -85,14 +92,15 @@ size_t aur_gather_prepared_rotation(const aur_gather_points *surface_points, siz
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;
     const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
-    const uint64_t hash = aur_hash3(
-        surface_points->plan->seed,
-        aur_gather_points_hash(surface_points, random ? surface_points->pixels[lane] : surface_points->tile),
-        surface_points->bounces);
+    const uint64_t hash =
+        aur_hash3(surface_points->plan->seed,
+                  aur_gather_points_hash(surface_points, lane,
+                                         random ? surface_points->pixels[lane] : surface_points->tile),
+                  surface_points->bounces);
     *mirrored = hash >> 63 != 0;
     if (random)
         return (hash & UINT32_MAX) % rotations;
-    return (aur_group_rank(surface_points->group) ^ (hash & 15u)) * rotations / 16;
+    return (aur_group_rank(surface_points->group[lane]) ^ (hash & 15u)) * rotations / 16;
 }
 
 /* Whether all lanes share one rotation. */
@@ -191,7 +199,8 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
     *sweep = (aur_gather_sweep){.rule = rule,
                                 .lobe = lobe,
                                 .lanes = lanes,
-                                .together = rotate_together(surface_points->plan, &rule->rule)};
+                                .together = surface_points->grouped &&
+                                            rotate_together(surface_points->plan, &rule->rule)};
     const size_t first = aur_first_lane(lanes);
     const bool nested = rule->rule.nested && rotates_by_tile(surface_points->plan, &rule->rule);
     if (nested)
@@ -213,14 +222,18 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
 }
 
 /* Direction `index` in the frames of all lanes, with its weights and the densities that other strategies are
- * weighed against. */
-static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane_vectors *local,
-                           float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
+ * weighed against. Returns the lanes whose part of the rule has it. */
+static uint32_t set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane_vectors *local,
+                               float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
     const aur_gather_rule *const rule = &sweep->rule->rule;
     const float directions = sweep->rule->directions;
     aur_vector direction;
     if (sweep->together) {
-        const aur_gather_rotation *const rotation = &sweep->rotations[aur_first_lane(sweep->lanes)];
+        const size_t first = aur_first_lane(sweep->lanes);
+        const aur_gather_rotation *const rotation = &sweep->rotations[first];
+        index += sweep->part[first];
+        if (index >= rule->count)
+            return 0;
         const float one = aur_gather_rule_direction(rule, rotation, index, &direction);
         const float drawn = rule->densities[rotation->first + index] * directions;
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -228,25 +241,37 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane
             weight[k] = one;
             density[k] = drawn;
         }
-        return;
+        return sweep->lanes;
     }
+    uint32_t lanes = 0;
     for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_rotation *const rotation = &sweep->rotations[lane];
+        const size_t number = index + sweep->part[lane];
+        if (number >= rule->count)
+            continue;
+        lanes |= 1u << lane;
         if (rule->square == NULL) {
-            weight[lane] = aur_gather_rule_stored(rule, rotation, index, &direction);
-            density[lane] = directions * rule->densities[rotation->first + index];
+            weight[lane] = aur_gather_rule_stored(rule, rotation, number, &direction);
+            density[lane] = directions * rule->densities[rotation->first + number];
         } else {
-            weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
+            weight[lane] = aur_gather_rule_direction(rule, rotation, number, &direction);
             density[lane] = directions * aur_gather_rule_density(rule, direction.z);
         }
         aur_lane_set(local, lane, direction);
     }
+    return lanes;
 }
 
-void aur_gather_set_probability(const aur_gather_points *surface_points, size_t lobe, size_t index,
-                                aur_gather_rays *rays) {
-    rays->hash = aur_hash4(surface_points->index, surface_points->bounces, lobe, index);
+void aur_gather_set_probability(const aur_gather_points *surface_points, const aur_gather_sweep *sweep,
+                                size_t index, aur_gather_rays *rays) {
+    uint64_t hash = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        if (k == 0 || !surface_points->grouped)
+            hash = aur_hash4(surface_points->index[k], surface_points->bounces, sweep->lobe,
+                             index + sweep->part[k]);
+        rays->hash[k] = hash;
+    }
     rays->pixels = surface_points->pixels;
 }
 
@@ -256,11 +281,13 @@ uint32_t aur_gather_sweep_trace(const aur_gather_points *surface_points, const a
     aur_gather_rays *const rays = &sums->rays;
     aur_lane_vectors local = {0};
     float cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
-    set_directions(sweep, index, &local, weight, rays->density);
-    const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
+    const uint32_t lanes = set_directions(sweep, index, &local, weight, rays->density);
+    if (lanes == 0)
+        return 0;
+    const uint32_t aimed = aur_gather_aim(lanes, &sweep->frames, &local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
-    aur_gather_set_probability(surface_points, sweep->lobe, index, rays);
+    aur_gather_set_probability(surface_points, sweep, index, rays);
     aur_gather_rays_trace(surface_points->plan, surface_points->order, rays, sums->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);

@@ -22,10 +22,6 @@ uint32_t aur_gather_aim_world(uint32_t lanes, const aur_lobe_frames *restrict fr
                               const float directions[3][AUR_PACKET_SIZE], aur_packet *packet,
                               float cosine[AUR_PACKET_SIZE]);
 
-/* Sets the hashes of the random decisions about whether rays of direction `index`, lobe `lobe`, continue. */
-void aur_gather_set_probability(const aur_gather_points *surface_points, size_t lobe, size_t index,
-                                aur_gather_rays *rays);
-
 /* The rotation of a lane's pattern for lobe `lobe`. Under "blue" all lanes of the group share it. */
 aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_points,
                                            const aur_gather_lobe_rule *rule, size_t lane, uint64_t lobe);
@@ -54,9 +50,10 @@ struct aur_gather_sweep {
     const aur_gather_lobe_rule *rule;
     size_t lobe;
     uint32_t lanes;
-    uint32_t factored; /* lanes whose lobe is a power of the cosine times another factor */
-    bool together;     /* all lanes share one rotation */
-    bool pairs;        /* a method gathers pairs of lobes, else lobe `lobe` */
+    uint32_t factored;              /* lanes whose lobe is a power of the cosine times another factor */
+    bool together;                  /* all lanes share one rotation and the same directions */
+    bool pairs;                     /* a method gathers pairs of lobes, else lobe `lobe` */
+    uint32_t part[AUR_PACKET_SIZE]; /* what the lanes add to the index of a direction */
     bool times_cosine[AUR_PACKET_SIZE];
     aur_gather_rotation rotations[AUR_PACKET_SIZE];
     aur_lobe_frames frames;
@@ -64,6 +61,10 @@ struct aur_gather_sweep {
 
 void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule,
                             size_t lobe, uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays);
+
+/* Sets the hashes of the random decisions about whether rays of direction `index` continue. */
+void aur_gather_set_probability(const aur_gather_points *surface_points, const aur_gather_sweep *sweep,
+                                size_t index, aur_gather_rays *rays);
 
 /* Traces direction `index` and leaves the incident radiance in sums->rays.radiance (0 in other lanes).
  * Returns the lanes whose surface the direction is above. `factor` is what to multiply their radiance by: the

@@ -93,13 +93,15 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
     const uint32_t pair = aur_gather_first_pair(surface_points->bounces), draws = plan->light.draws;
     aur_light_lanes lights = {0};
     for (uint32_t k = 0; k < draws; ++k) {
-        const uint32_t index = surface_points->index * draws + k;
+        uint32_t index[AUR_PACKET_SIZE];
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+            index[lane] = surface_points->index[lane] * draws + k;
         float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
         if (chooses)
-            aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
-                              pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
-        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
-                          pair + AUR_GATHER_PAIR_POSITION, u, v);
+            aur_stream_samples(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
+                               pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
+        aur_stream_samples(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
+                           pair + AUR_GATHER_PAIR_POSITION, u, v);
         aur_light_lanes_direct(plan->scene, surface_points->lanes, &references, choice, u, v, &lights);
         complete(&position, (float)draws, &lights);
         add_lights(surface_points, surface_points->order, &lights, sums);
@@ -155,12 +157,14 @@ void aur_gather_add_bright_light(const aur_gather_points *surface_points, aur_ga
     const aur_gather_light *const from = &plan->light;
     const uint32_t pair = aur_gather_first_pair(surface_points->bounces);
     for (uint32_t k = 0; k < from->bright_draws; ++k) {
-        const uint32_t index = surface_points->index * from->bright_draws + k;
+        uint32_t index[AUR_PACKET_SIZE];
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+            index[lane] = surface_points->index[lane] * from->bright_draws + k;
         float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
-        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
-                          pair + AUR_GATHER_PAIR_TEXEL, choice, unused);
-        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
-                          pair + AUR_GATHER_PAIR_TEXEL_POSITION, u, v);
+        aur_stream_samples(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
+                           pair + AUR_GATHER_PAIR_TEXEL, choice, unused);
+        aur_stream_samples(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
+                           pair + AUR_GATHER_PAIR_TEXEL_POSITION, u, v);
         aur_light_lanes lights;
         for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
@@ -169,7 +173,7 @@ void aur_gather_add_bright_light(const aur_gather_points *surface_points, aur_ga
                                          (const float[2]){u[lane], v[lane]});
             const aur_light_sample sample =
                 light_from(plan, &point, surface_points->at[lane].surface.position,
-                           aur_hash4(surface_points->pixels[lane], index, pair, plan->seed));
+                           aur_hash4(surface_points->pixels[lane], index[lane], pair, plan->seed));
             aur_light_lane_set(&lights, lane, &sample);
         }
         add_lights(surface_points, AUR_EMBREE_INCOHERENT, &lights, sums);

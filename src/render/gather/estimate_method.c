@@ -115,7 +115,7 @@ bool aur_gather_describe(const aur_gather_sweep *sweep, size_t lane, aur_gather_
 }
 
 size_t aur_gather_subset(const aur_gather_sweep *sweep) {
-    return aur_gather_part(sweep->surface_points);
+    return aur_gather_part(sweep->surface_points, 0);
 }
 
 /* Traces the packet; radiance is 0 if no lane is aimed. */
@@ -126,7 +126,7 @@ static uint32_t trace(aur_gather_sweep *sweep, uint32_t aimed, size_t index,
     memset(radiance, 0, sizeof rays->radiance);
     if (aimed == 0)
         return 0;
-    aur_gather_set_probability(surface_points, sweep->lobe, index, rays);
+    aur_gather_set_probability(surface_points, sweep, index, rays);
     aur_gather_rays_trace(surface_points->plan, surface_points->order, rays, sweep->sums->counters);
     memcpy(radiance, rays->radiance, sizeof rays->radiance);
     return aimed;
@@ -148,7 +148,7 @@ uint32_t aur_gather_trace_ggx(aur_gather_sweep *sweep, uint32_t lanes, size_t in
     aur_gather_rays *const rays = &sweep->sums->rays;
     uint32_t aimed = 0;
     aur_packet_empty(&rays->packet);
-    aur_gather_set_probability(sweep->surface_points, sweep->lobe, index, rays);
+    aur_gather_set_probability(sweep->surface_points, sweep, index, rays);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const float u[3] = {aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane))),

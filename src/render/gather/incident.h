@@ -12,16 +12,16 @@ typedef struct aur_gather_rays {
     /* Solid-angle density of each direction times the number of directions per sample: the pdf for MIS
      * against light sampling. */
     float density[AUR_PACKET_SIZE];
-    /* Seeds of the random decisions where rays continue: a hash of the direction, and hashes of the lanes'
+    /* Seeds of the random decisions where rays continue: hashes of the directions, and of the lanes'
      * pixels. The result does not depend on which pixels are grouped. */
-    uint64_t hash;
+    uint64_t hash[AUR_PACKET_SIZE];
     const uint64_t *pixels;
     aur_light_reference reference[AUR_PACKET_SIZE]; /* the points that gather */
     float radiance[3][AUR_PACKET_SIZE];             /* 0 for lanes without a ray */
 } aur_gather_rays;
 
 static inline uint64_t aur_gather_rays_hash(const aur_gather_rays *rays, size_t lane) {
-    return aur_hash2(rays->hash, rays->pixels[lane]);
+    return aur_hash2(rays->hash[lane], rays->pixels[lane]);
 }
 
 /* Traces the packet and computes the radiance of its rays. */

@@ -38,7 +38,7 @@ void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const
 
 /* Whether packets from these points are coherent: decided by normals and positions, never by timing. */
 static bool are_flat(const aur_gather_points *surface_points) {
-    if (aur_lane_count(surface_points->lanes) < AUR_PACKET_SIZE / 2)
+    if (!surface_points->grouped || aur_lane_count(surface_points->lanes) < AUR_PACKET_SIZE / 2)
         return false;
     const aur_gather_point *const first = &surface_points->at[aur_first_lane(surface_points->lanes)];
     for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {

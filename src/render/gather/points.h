@@ -1,4 +1,4 @@
-/* The surface points that sixteen pixels see, where light is gathered. */
+/* The surface points that sixteen samples of pixels see, where light is gathered. */
 #pragma once
 
 #include "points/base/random.h"
@@ -26,9 +26,11 @@ typedef struct aur_gather_points {
     uint32_t lanes;         /* those with a shading point */
     uint32_t bounces;       /* specular ones between the camera and the points */
     aur_embree_order order; /* of packets with one ray from each point */
-    uint32_t group, index;  /* of the tile's sixteen groups; of the samples of a pixel */
-    uint64_t arrangement;   /* of the tile's pixels in groups (render/trace/interleave.h) */
-    uint64_t tile;          /* hash of the tile's corner */
+    /* Whether the lanes are one group's (render/trace/interleave.h) and have one index. */
+    bool grouped;
+    uint32_t group[AUR_PACKET_SIZE], index[AUR_PACKET_SIZE]; /* of the tile's groups; of a pixel's samples */
+    uint16_t place[AUR_PACKET_SIZE];                         /* of the pixels in the tile, row by row */
+    uint64_t tile;                                           /* hash of the tile's corner */
     const aur_sampler *sampler;
     uint64_t pixels[AUR_PACKET_SIZE]; /* hashes of the pixels, for their streams of numbers */
     aur_vector throughput[AUR_PACKET_SIZE];
@@ -46,21 +48,22 @@ void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const
                           aur_gather_point *surface_point);
 
 /* A seed for the randomisation of a tile or pixel, given its hash `of`, distinct for each pattern. */
-static inline uint64_t aur_gather_points_hash(const aur_gather_points *surface_points, uint64_t of) {
+static inline uint64_t aur_gather_points_hash(const aur_gather_points *surface_points, size_t lane,
+                                              uint64_t of) {
     const aur_gather_plan *const plan = surface_points->plan;
-    const uint64_t pattern = plan->renews ? surface_points->index / plan->samples_per_pattern : 0;
+    const uint64_t pattern = plan->renews ? surface_points->index[lane] / plan->samples_per_pattern : 0;
     return pattern > 0 ? aur_hash2(of, pattern) : of;
 }
 
-/* The part of a pattern that this sample uses. Groups start at different parts: otherwise all pixels with
+/* The part of a pattern that a lane's sample uses. Groups start at different parts: otherwise all pixels with
  * fewer samples than parts would miss the same ones, and their errors would be correlated. */
-static inline size_t aur_gather_part(const aur_gather_points *surface_points) {
+static inline size_t aur_gather_part(const aur_gather_points *surface_points, size_t lane) {
     const aur_gather_plan *const plan = surface_points->plan;
     const uint64_t hash =
-        aur_hash3(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile), 0x70617274);
+        aur_hash3(plan->seed, aur_gather_points_hash(surface_points, lane, surface_points->tile), 0x70617274);
     const size_t parts = plan->samples_per_pattern;
-    const size_t first = (size_t)(hash >> 32) % parts + aur_group_rank(surface_points->group);
-    return (first + surface_points->index % parts * plan->part_stride) % parts;
+    const size_t first = (size_t)(hash >> 32) % parts + aur_group_rank(surface_points->group[lane]);
+    return (first + surface_points->index[lane] % parts * plan->part_stride) % parts;
 }
 
 /* The coherence of packets whose rays leave the points in similar directions. */

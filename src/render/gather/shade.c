@@ -32,20 +32,28 @@ static void add_to_pool(const aur_gather_points *surface_points, const aur_gathe
                             .normal = aur_vector_scale(surface_point->surface.frame.z, surface_point->side)};
 }
 
-/* By this sample's part of the rule. */
+/* Sets the part of the rule's directions of each lane's sample; returns the number of parts. */
+static size_t set_parts(aur_gather_sweep *sweep, const aur_gather_points *surface_points, bool splits) {
+    size_t part = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        if (k == 0 || !surface_points->grouped) {
+            part = aur_gather_part(surface_points, k);
+            if (splits)
+                part = part * AUR_GROUP_COUNT + aur_group_rank(surface_points->group[k]);
+        }
+        sweep->part[k] = (uint32_t)part;
+    }
+    return surface_points->plan->samples_per_pattern * (splits ? AUR_GROUP_COUNT : 1);
+}
+
+/* By these samples' parts of the rule. */
 static void by_rule(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule, size_t lobe,
                     uint32_t lanes, aur_gather_sums *sums) {
     aur_gather_sweep sweep;
     aur_gather_sweep_start(surface_points, rule, lobe, lanes, &sweep, &sums->rays);
-    const bool splits = aur_gather_splits(surface_points, rule);
-    /* The rule's directions are split into this many parts, one per sample. */
-    size_t parts = surface_points->plan->samples_per_pattern, part = aur_gather_part(surface_points);
-    if (splits) {
-        part = part * AUR_PACKET_SIZE + aur_group_rank(surface_points->group);
-        parts *= AUR_PACKET_SIZE;
-    }
+    const size_t parts = set_parts(&sweep, surface_points, aur_gather_splits(surface_points, rule));
     float sum[3][AUR_PACKET_SIZE] = {0};
-    for (size_t i = part; i < rule->rule.count; i += parts) {
+    for (size_t i = 0; i < rule->rule.count; i += parts) {
         float factor[AUR_PACKET_SIZE];
         if (aur_gather_sweep_trace(surface_points, &sweep, i, true, sums, factor) == 0)
             continue;
@@ -78,19 +86,21 @@ static void by_sampling(const aur_gather_points *surface_points, size_t lobe, ui
     aur_gather_rays *const rays = &sums->rays;
     aur_gather_sweep sweep;
     aur_gather_sweep_start(surface_points, sampled, lobe, lanes, &sweep, rays);
-    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
-    for (size_t i = aur_gather_part(surface_points); i < sampled->rule.count; i += parts) {
+    const size_t first = aur_first_lane(lanes), parts = set_parts(&sweep, surface_points, false);
+    for (size_t i = 0; i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f}, unused;
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);
-        aur_gather_set_probability(surface_points, lobe, i, rays);
-        if (sweep.together)
-            aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
+        aur_gather_set_probability(surface_points, &sweep, i, rays);
+        if (sweep.together && i + sweep.part[first] < sampled->rule.count)
+            aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i + sweep.part[first], &u[1]);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-            const size_t lane = aur_first_lane(rest);
+            const size_t lane = aur_first_lane(rest), number = i + sweep.part[lane];
+            if (number >= sampled->rule.count)
+                continue;
             if (!sweep.together)
-                aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
+                aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], number, &u[1]);
             u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
             aimed |= (uint32_t)aur_gather_aim_draw(&surface_points->at[lane], lane, u, sampled->directions,
                                                    rays, &value[lane], &unused)

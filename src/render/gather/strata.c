@@ -121,7 +121,7 @@ static void probe_pixels(const aur_gather_plan *plan, const aur_view *view, size
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
     aur_packet_clear(&packet);
-    aur_view_samples(view, count, x, y, 0, samples);
+    aur_view_samples(view, count, x, y, (const uint32_t[AUR_PACKET_SIZE]){0}, samples);
     for (size_t k = 0; k < count; ++k)
         aur_packet_set(&packet, k, &samples[k].ray);
     const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet);

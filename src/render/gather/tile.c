@@ -14,15 +14,24 @@ typedef struct spread_cell {
     float seen, shaded, sum[3];
 } spread_cell;
 
-/* One tile, processed by samples of sixteen pixels at a time: surface_points.group and .index select them. */
+/* A sample that waits for a packet: those of surface_points. */
+typedef struct waiting_sample {
+    uint32_t group, index;
+    uint16_t place;
+} waiting_sample;
+
+/* One tile, processed by sixteen samples at a time. */
 typedef struct gather_tile {
     const aur_view *view;
     size_t x, y;                                            /* of the tile's corner in the image */
-    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the image */
-    bool chosen;                                            /* columns, rows and the arrangement are set */
+    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the pixels in the image */
+    uint64_t arrangement;                                   /* of the tile's pixels in groups */
+    bool chosen;   /* columns, rows and places are those of a group under this arrangement */
     bool only_new; /* shade only strata of which a pixel has no radiance yet */
     aur_gather_points surface_points;
     aur_gather_sums sums;
+    size_t waiting_count;
+    waiting_sample waiting[AUR_PACKET_SIZE];
     aur_camera_sample samples[AUR_PACKET_SIZE]; /* their rays are replaced at each specular bounce */
     spread_cell *cells; /* where pixels share samples: per stratum, for the pixels around; else NULL */
     const aur_spread *spread;
@@ -68,7 +77,14 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
 /* --- one sample of sixteen pixels: what the camera sees, also by mirrors and through glass */
 
 static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
-    return &work->strata[aur_group_pixel(work->surface_points.arrangement, work->surface_points.group, lane)];
+    return &work->strata[work->surface_points.place[lane]];
+}
+
+static void set_lane(gather_tile *work, size_t lane, uint32_t group, size_t place) {
+    work->surface_points.group[lane] = group;
+    work->surface_points.place[lane] = (uint16_t)place;
+    work->columns[lane] = work->x + place % AUR_TILE_SIZE;
+    work->rows[lane] = work->y + place / AUR_TILE_SIZE;
 }
 
 /* Selects the pixels of a group for sample `index`. Samples that share a pattern use the same pixels. Pixels
@@ -77,16 +93,17 @@ static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     aur_gather_points *const surface_points = &work->surface_points;
     const aur_gather_plan *const plan = surface_points->plan;
     uint64_t arrangement = 0;
-    surface_points->index = index;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        surface_points->index[lane] = index;
     if (plan->policy.share != AUR_SHARE_BLOCKS && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
         arrangement = aur_group_arrangement(
-            aur_hash2(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile)));
-    if (work->chosen && group == surface_points->group && arrangement == surface_points->arrangement)
+            aur_hash2(plan->seed, aur_gather_points_hash(surface_points, 0, surface_points->tile)));
+    if (work->chosen && group == surface_points->group[0] && arrangement == work->arrangement)
         return;
-    work->chosen = true;
-    surface_points->group = group;
-    surface_points->arrangement = arrangement;
-    aur_group_pixels(arrangement, group, work->x, work->y, work->columns, work->rows);
+    work->chosen = surface_points->grouped = true;
+    work->arrangement = arrangement;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        set_lane(work, lane, group, aur_group_pixel(arrangement, group, lane));
 }
 
 static void begin(gather_tile *work, uint32_t lanes) {
@@ -265,6 +282,53 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
     }
 }
 
+/* --- packets of samples of several groups or indices, where a group has few at a time */
+
+/* Fewer samples of a group at a time wait for others. */
+enum { SPARSE = 8 };
+
+/* Adds the waiting samples. */
+static void add_waiting(gather_tile *work) {
+    aur_gather_points *const surface_points = &work->surface_points;
+    work->chosen = surface_points->grouped = false;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const waiting_sample *const sample = &work->waiting[lane < work->waiting_count ? lane : 0];
+        surface_points->index[lane] = sample->index;
+        set_lane(work, lane, sample->group, sample->place);
+    }
+    add_samples(work, (1u << work->waiting_count) - 1);
+    work->waiting_count = 0;
+}
+
+/* Lets samples of the chosen pixels wait until there are sixteen. */
+static void queue_samples(gather_tile *work, uint32_t lanes) {
+    const aur_gather_points *const surface_points = &work->surface_points;
+    const uint32_t group = surface_points->group[0], index = surface_points->index[0];
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        work->waiting[work->waiting_count++] = (waiting_sample){group, index, surface_points->place[lane]};
+        if (work->waiting_count < AUR_PACKET_SIZE)
+            continue;
+        add_waiting(work);
+        choose(work, group, index);
+    }
+}
+
+/* Adds samples of the chosen pixels; a pixel's samples that wait come first. */
+static void add_group(gather_tile *work, uint32_t lanes) {
+    const aur_gather_points *const surface_points = &work->surface_points;
+    const uint32_t group = surface_points->group[0], index = surface_points->index[0];
+    bool waits = false;
+    for (size_t i = 0; i < work->waiting_count; ++i)
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
+            waits = waits || surface_points->place[aur_first_lane(rest)] == work->waiting[i].place;
+    if (waits) {
+        add_waiting(work);
+        choose(work, group, index);
+    }
+    add_samples(work, lanes);
+}
+
 /* --- the tile */
 
 static bool any_marked(const uint32_t marks[AUR_GROUP_COUNT]) {
@@ -292,7 +356,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
             choose(work, group, tile->first + tile->count + i);
-            add_samples(work, aur_group_lanes_marked(work->surface_points.arrangement, group,
+            add_samples(work, aur_group_lanes_marked(work->arrangement, group,
                                                      i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
         }
     counters->edge_rays += aur_rays_traced - before;
@@ -303,16 +367,22 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
  * last bits. */
 static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     const aur_view *const view = work->view;
+    const bool regroups = tile->begins != NULL && work->surface_points.plan->rules.method == NULL;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < tile->count; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
             choose(work, group, tile->first + i);
-            const uint32_t lanes =
+            const uint32_t all =
                 aur_group_lanes_within(work->columns, work->rows, 0, view->width, 0, view->height);
-            add_samples(work,
-                        aur_group_lanes_needed(tile, work->columns, work->rows, lanes, tile->first + i));
+            const uint32_t lanes =
+                aur_group_lanes_needed(tile, work->columns, work->rows, all, tile->first + i);
+            if (regroups && aur_lane_count(lanes) < SPARSE)
+                queue_samples(work, lanes);
+            else
+                add_group(work, lanes);
         }
+    add_waiting(work);
     return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 

@@ -24,7 +24,10 @@ static void trace_probes(aur_path_group *g, aur_tile *tile, const size_t *x, con
 /* Starts sample g->index of the pixels of `lanes`, with probe rays in those of `needed`. */
 static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
                   uint32_t needed, aur_camera_sample *samples) {
-    aur_view_samples(tile->view, AUR_PACKET_SIZE, x, y, g->index, samples);
+    uint32_t indices[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        indices[k] = g->index;
+    aur_view_samples(tile->view, AUR_PACKET_SIZE, x, y, indices, samples);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         g->pixels[k] = samples[k].stream.pixel;
         aur_packet_set(&g->packet, k, &samples[k].ray);

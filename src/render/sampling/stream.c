@@ -171,6 +171,16 @@ void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t 
     }
 }
 
+void aur_stream_samples(const aur_sampler *sampler, size_t count, const uint64_t *pixels,
+                        const uint32_t *indices, uint32_t pair, float *u, float *v) {
+    if (sampler->kernels != NULL) {
+        sampler->kernels->samples(count, pixels, indices, pair, u, v);
+        return;
+    }
+    for (size_t k = 0; k < count; ++k)
+        aur_stream_pixels(sampler, 1, &pixels[k], indices[k], pair, &u[k], &v[k]);
+}
+
 void aur_stream_indices(const aur_sampler *sampler, uint64_t pixel, size_t count, const uint32_t *indices,
                         uint32_t pair, float *u, float *v) {
     if (sampler->kernels != NULL) {

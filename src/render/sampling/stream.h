@@ -49,6 +49,9 @@ void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, fl
 /* One pair for sample `index` of `count` pixels, given by their hashes. */
 AUR_INTERNAL void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels,
                                     uint32_t index, uint32_t pair, float *u, float *v);
+/* The same for sample indices[k] of pixel k. */
+void aur_stream_samples(const aur_sampler *sampler, size_t count, const uint64_t *pixels,
+                        const uint32_t *indices, uint32_t pair, float *u, float *v);
 /* One pair for `count` samples of a pixel, given by their indices. */
 void aur_stream_indices(const aur_sampler *sampler, uint64_t pixel, size_t count, const uint32_t *indices,
                         uint32_t pair, float *u, float *v);

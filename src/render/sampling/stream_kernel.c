@@ -102,6 +102,12 @@ static void sobol_pixels(size_t count, const uint64_t *restrict pixels, uint32_t
         aur_sobol_pair(reversed, aur_hash2(pixels[k], pair), &u[k], &v[k]);
 }
 
+static void sobol_samples(size_t count, const uint64_t *restrict pixels, const uint32_t *restrict indices,
+                          uint32_t pair, float *restrict u, float *restrict v) {
+    for (size_t k = 0; k < count; ++k)
+        aur_sobol_pair(aur_reverse_bits(indices[k]), aur_hash2(pixels[k], pair), &u[k], &v[k]);
+}
+
 static void sobol_indices(uint64_t hash, size_t count, const uint32_t *restrict indices, float *restrict u,
                           float *restrict v) {
     for (size_t k = 0; k < count; ++k)
@@ -126,11 +132,18 @@ static void random_pixels(size_t count, const uint64_t *restrict pixels, uint32_
         aur_random_pair(index, aur_hash2(pixels[k], pair), &u[k], &v[k]);
 }
 
+static void random_samples(size_t count, const uint64_t *restrict pixels, const uint32_t *restrict indices,
+                           uint32_t pair, float *restrict u, float *restrict v) {
+    for (size_t k = 0; k < count; ++k)
+        aur_random_pair(indices[k], aur_hash2(pixels[k], pair), &u[k], &v[k]);
+}
+
 static void random_indices(uint64_t hash, size_t count, const uint32_t *restrict indices, float *restrict u,
                            float *restrict v) {
     for (size_t k = 0; k < count; ++k)
         aur_random_pair(indices[k], hash, &u[k], &v[k]);
 }
 
-const aur_stream_kernel_sets AUR_KERNEL(aur_stream_kernels) = {{sobol_pairs, sobol_pixels, sobol_indices},
-                                                               {random_pairs, random_pixels, random_indices}};
+const aur_stream_kernel_sets AUR_KERNEL(aur_stream_kernels) = {
+    {sobol_pairs, sobol_pixels, sobol_samples, sobol_indices},
+    {random_pairs, random_pixels, random_samples, random_indices}};

@@ -10,6 +10,9 @@ struct aur_stream_kernels {
     void (*pairs)(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
     /* One pair for sample `index` of `count` pixels. */
     void (*pixels)(size_t count, const uint64_t *pixels, uint32_t index, uint32_t pair, float *u, float *v);
+    /* The same for sample indices[k] of pixel k. */
+    void (*samples)(size_t count, const uint64_t *pixels, const uint32_t *indices, uint32_t pair, float *u,
+                    float *v);
     /* One pair, with its hash of pixel and dimension, for `count` samples. */
     void (*indices)(uint64_t hash, size_t count, const uint32_t *indices, float *u, float *v);
 };

@@ -65,7 +65,8 @@ static void compare(const char *integrator, aur_renderer *renderer, aur_image *c
     aur_render_destroy(render);
 }
 
-/* Without packets: the last bits of a packet's rays may depend on which pixels share it. */
+/* Without packets, except in the last row, whose packets hold samples of different pixels and indices: in
+ * this scene Embree gives every ray of a packet the hit that it has alone. */
 static void pixels_are_identical_to_even_images(void **state) {
     (void)state;
     static const struct {
@@ -75,7 +76,8 @@ static void pixels_are_identical_to_even_images(void **state) {
                 {"direct", true},
                 {"aov:aovs=(n:sample_count,d:depth)", true},
                 {"ao:samples=8", true},
-                {"finalgather-lab:photons=5000,diffuse_samples=8,split=8,edges=0,packets=false", false}};
+                {"finalgather-lab:photons=5000,diffuse_samples=8,split=8,edges=0,packets=false", false},
+                {"finalgather:photons=5000,diffuse_samples=8,split=8,edges=0", false}};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),

@@ -154,6 +154,30 @@ static void many_pixels_are_the_single_ones(void **state) {
     }
 }
 
+/* And so have samples of several pixels, each with its own index. */
+static void samples_of_many_pixels_are_the_single_ones(void **state) {
+    (void)state;
+    enum { COUNT = 21 };
+    for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
+        aur_sampler *const sampler = make(sets[s], 16);
+        uint64_t pixels[COUNT];
+        uint32_t indices[COUNT];
+        float u[COUNT], v[COUNT];
+        for (uint32_t k = 0; k < COUNT; ++k) {
+            pixels[k] = aur_hash2(9, k / 2);
+            indices[k] = k * 7 % 40;
+        }
+        aur_stream_samples(sampler, COUNT, pixels, indices, 5, u, v);
+        for (size_t k = 0; k < COUNT; ++k) {
+            const aur_stream stream = {sampler, pixels[k], indices[k]};
+            float one[2];
+            aur_stream_pair(&stream, 5, one);
+            assert_true(one[0] == u[k] && one[1] == v[k]);
+        }
+        aur_sampler_destroy(sampler);
+    }
+}
+
 /* And so have many samples of one pixel. */
 static void many_samples_are_the_single_ones(void **state) {
     (void)state;
@@ -190,6 +214,7 @@ int main(void) {
         cmocka_unit_test(nets_stay_nets),
         cmocka_unit_test(tables_are_permuted),
         cmocka_unit_test(many_pixels_are_the_single_ones),
+        cmocka_unit_test(samples_of_many_pixels_are_the_single_ones),
         cmocka_unit_test(many_samples_are_the_single_ones),
         cmocka_unit_test(blocks_are_single_pairs),
         cmocka_unit_test(refuses_bad_input),
