@@ -90,7 +90,7 @@ typedef struct aur_adaptive_report {
     uint64_t candidate_rays;
     double bias_high; /* of the error: an upper bound of the systematic error; 0 for an unbiased integrator */
     /* The error by every measure; each includes the bias only as far as `error` does. Those by other measures
-     * than the target's are computed when aur_adaptive_run ends. */
+     * than the target's are computed once a round, when a report is asked for. */
     aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
     double bias_room;  /* the part of the target error reserved for bias: it gives the same image with a named
                           integrator */

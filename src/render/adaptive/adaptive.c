@@ -298,10 +298,7 @@ aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
         if (result == AUR_OK && !again)
             result = aur_adaptive_check_bias(adaptive, true, &again, error);
     }
-    if (adaptive->candidate.rounds > 0) {
-        aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
-        aur_adaptive_bound_others(adaptive);
-    }
+    aur_adaptive_measure_others(adaptive);
     end_lap(adaptive, &lap);
     atomic_store(&adaptive->cancelled, false);
     return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
@@ -314,7 +311,9 @@ void aur_adaptive_cancel(aur_adaptive *adaptive) {
 
 /* --- what came out */
 
+/* Also while rounds are rendered: the errors by all measures belong to one round. */
 aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
+    aur_adaptive_measure_others((aur_adaptive *)adaptive); /* which are part of what it has rendered */
     const aur_error_interval interval = whole_error(adaptive, adaptive->target.measure);
     aur_adaptive_report local = {.error = interval.estimate,
                                  .error_low = interval.low,

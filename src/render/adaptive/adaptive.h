@@ -32,6 +32,7 @@ struct aur_adaptive {
     aur_corrections corrections;
     bool unchecked;                         /* the bias was not bounded since the last round */
     aur_bias bias[AUR_ERROR_MEASURE_COUNT]; /* of the candidate, by each measure */
+    uint64_t others_rounds, others_steps; /* whose errors by other measures than the target's are computed */
 };
 
 /* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is
@@ -61,6 +62,9 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 /* Computes `bias` by all measures from the corrections; by those that no round depends on. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
 void aur_adaptive_bound_others(aur_adaptive *adaptive);
+/* Computes the errors of the last finished round by the measures that no round depends on, unless that was
+ * done. */
+void aur_adaptive_measure_others(aur_adaptive *adaptive);
 /* Must be called after each round; `last`: the noise target is met. Renders corrections, bounds the bias, and
  * switches to the next candidate if it is, or may be, too large: then `again` is true, and rounds start
  * again. */

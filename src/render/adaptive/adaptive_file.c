@@ -81,6 +81,7 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
         return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image with the option 'resumable' can be saved");
     if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
+    aur_adaptive_measure_others((aur_adaptive *)adaptive);
     const size_t count = word_count(adaptive);
     transfer to = {.word = calloc(count, sizeof *to.word)};
     if (to.word == NULL)
@@ -140,6 +141,8 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);
         aur_adaptive_bound_bias(adaptive);
     }
+    adaptive->others_rounds = candidate->rounds; /* the file has them */
+    adaptive->others_steps = adaptive->corrections.steps;
     return result;
 }
 

@@ -96,6 +96,7 @@ aur_spent aur_adaptive_spent(const aur_adaptive *adaptive) {
 aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error) {
     aur_candidate_release(&adaptive->candidate);
     aur_corrections_release(&adaptive->corrections);
+    adaptive->others_rounds = adaptive->others_steps = 0;
     adaptive->candidate.integrator = integrator;
     aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
     aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
@@ -198,6 +199,16 @@ void aur_adaptive_bound_others(aur_adaptive *adaptive) {
         bound_bias_by(adaptive, m);
     }
     aur_candidate_weigh(&adaptive->candidate, asked);
+}
+
+void aur_adaptive_measure_others(aur_adaptive *adaptive) {
+    const uint64_t rounds = adaptive->candidate.rounds, steps = adaptive->corrections.steps;
+    if (adaptive->others_rounds == rounds && adaptive->others_steps == steps)
+        return;
+    aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
+    aur_adaptive_bound_others(adaptive);
+    adaptive->others_rounds = rounds;
+    adaptive->others_steps = steps;
 }
 
 void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
