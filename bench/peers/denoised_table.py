@@ -6,9 +6,9 @@
 
 Requires the packages of target_error.py. Both programs use the library in AUREOLE_OIDN, the filter box, path lengths without a limit and one thread.
 Mitsuba is llvm_ad_rgb with multi-jittered samples; its integrator aov renders albedo and normals with the image. Its seconds are those of
-this render call, compilation left out, and of denoising. Ours are those of the whole process less those of a process that loads the scene and renders
+this render call, compilation left out, and of denoising. Ours are the whole process's less those of a process that loads the scene and renders
 one pixel, for times T from an eighth of Mitsuba's seconds up; the error at equal seconds is interpolated between the two nearest by a power law,
-and the name of the integrator is that of the slower one.
+and the integrator named is the slower run's.
 
 The error is relMSE by the measure `relative` of docs/target-error.md: the mean of (x - a)(x - b) / scale^2 in luminance, where a and b are
 long renders of `path` and of Mitsuba, whose errors are independent (stored in FOLDER; their means are compared first).

@@ -189,7 +189,8 @@ static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
         adaptive->target.confidence);
 }
 
-void aur_adaptive_bound_others(aur_adaptive *adaptive) {
+/* By the measures that no round depends on. */
+static void bound_others(aur_adaptive *adaptive) {
     const aur_error_measure asked = adaptive->target.measure;
     if (adaptive->corrections.steps == 0 || aur_candidate_is_black(&adaptive->candidate))
         return;
@@ -206,14 +207,14 @@ void aur_adaptive_measure_others(aur_adaptive *adaptive) {
     if (adaptive->others_rounds == rounds && adaptive->others_steps == steps)
         return;
     aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
-    aur_adaptive_bound_others(adaptive);
+    bound_others(adaptive);
     adaptive->others_rounds = rounds;
     adaptive->others_steps = steps;
 }
 
 void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
     bound_bias_by(adaptive, adaptive->target.measure);
-    aur_adaptive_bound_others(adaptive);
+    bound_others(adaptive);
 }
 
 /* More samples narrow the interval of the bias, not more blocks. */

@@ -42,7 +42,7 @@ static aur_vector without_bending(aur_vector value, float ior_squared) {
     return aur_vector_scale(value, ior_squared > 0.0f ? ior_squared : 1.0f);
 }
 
-/* The share of equal light from all directions that reaches the eye, without what refraction concentrates.
+/* The share of equal light from all directions that reaches the eye, without the concentration by refraction.
  * Only lobes without a closed form are sampled: denoisers take this as free of noise. */
 static void reflectance(const aov_sample *sample, float *values) {
     const aur_surface *const surface = sample->surface;

@@ -77,7 +77,7 @@ typedef struct aur_photon_radiance {
     float area;          /* of the first one's texel */
 } aur_photon_radiance;
 
-/* `texel` is that of the first map. */
+/* `texel` belongs to the first map. */
 static inline aur_photon_radiance aur_gather_plan_photons(const aur_gather_plan *plan, uint32_t shape,
                                                           uint32_t element, uint32_t texel, float u, float v,
                                                           bool behind) {

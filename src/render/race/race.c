@@ -17,7 +17,7 @@ static const aur_race_limits default_limits = {
     .first_blocks = 9, .first_part = 0.2, .part = 0.05, .confidence = 0.95};
 /* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
-/* A candidate's shading takes time without a ray: 1.13 to 1.22 times that of plain paths in four scenes. */
+/* A candidate's shading takes time without a ray: 1.13 to 1.22 times a plain path's in four scenes. */
 static const double CANDIDATES_PRICE = 1.2;
 /* The shortest time limit for which a race is worthwhile, and the shortest for one of all first blocks. */
 static const double LEAST_SECONDS = 0.3, LONG_SECONDS = 2.0;

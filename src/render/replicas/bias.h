@@ -16,8 +16,8 @@ typedef struct aur_bias {
     double of_noise;  /* and by the noise of samples alone */
 } aur_bias;
 
-/* Estimates the bias of replicas that have it as the mean of `corrections`, plus that of channels 3 to 5 of
- * `shared`, if not NULL; blocks of 4 x 4 pixels without corrections are excluded. With D_r the mean
+/* Estimates the bias of replicas that have it as the mean of `corrections`, plus the bias in channels 3 to 5
+ * of `shared`, if not NULL; blocks of 4 x 4 pixels without corrections are excluded. With D_r the mean
  * difference of a block in the r-th replica, the mean of D_r D_s over r != s has the square of the block's
  * bias as its expectation, for any noise. The interval is Student's t over the blocks, and at least as wide
  * as noise of the replicas' spread makes it: rare large values seldom meet in two replicas. What replica r's

@@ -82,7 +82,7 @@ isolated() { python3 "$source/tests/program/cli/isolated.py" "$1"; }
 noisy=$(isolated plain.pfm) clean=$(isolated e.pfm)
 echo "isolated pixels, bright and dark: $noisy of the noisy image, $clean of the denoised one"
 [ "${noisy% *}" -gt 10 ] && [ "${clean% *}" -eq 0 ] || fail "isolated pixels"
-# With a target error, that of what is denoised is estimated by two halves.
+# With a target error, two halves estimate the error of the denoised image.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
 grep -q 'denoised half' message.txt && fail "an error of halves without a target"
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --error 60% --integrator path -o f.exr --denoise 2>message.txt
@@ -98,7 +98,7 @@ small() { "$aureole" render "$source/scenes/$1.xml" -q --width 64 --integrator p
 if ! small cornell-box/cornell-box --spp 1 --denoise 2>message.txt && grep -q 'Open Image Denoise not found' message.txt; then
   echo "without Open Image Denoise: its isolated pixels are not counted"
 else
-  # A mirrored lamp may be one bright pixel: as many as in the image of many samples.
+  # A mirrored lamp may be one bright pixel: an image of many samples shows as many.
   for scene in cornell-box/cornell-box cornell-box/glossy room/room; do
     [ "$scene" != room/room ] || [ -e "$source/scenes/generated/wood.exr" ] || continue # scripts/scenes.sh makes it
     small "$scene" --filter box --spp 256 || fail "$scene: no image"

@@ -122,7 +122,7 @@ static void test_all_measures(void **state) {
         }
 }
 
-/* What is reported as processor time is that of the process, for all but a few calls. */
+/* The reported processor time is the whole process's, except for a few calls. */
 static void test_processor_time(void **state) {
     const fixture *const f = *state;
     aur_adaptive_options target = {.size = sizeof target};

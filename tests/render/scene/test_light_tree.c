@@ -321,7 +321,7 @@ static void write_sky(void) {
 }
 
 /* Sixteen references at once are bit-identical to single ones, with an environment that is sampled together,
- * and rectangles of which some are large enough to be sampled by solid angle. */
+ * and rectangles, some large enough to be sampled by solid angle. */
 static void lanes_are_single_samples(void **state) {
     const char *const isa = *state;
     char body[16384];
