@@ -59,8 +59,8 @@ AUR_EXPERIMENTAL void aur_adaptive_cancel(aur_adaptive *adaptive) AUR_NONNULL(1)
 
 /* As aur_render_save and aur_render_resume, if the render options have `resumable`: the rounds continue as
  * without interruption. */
-AUR_EXPERIMENTAL aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path,
-                                              aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_adaptive_save(aur_adaptive *adaptive, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 
@@ -94,11 +94,12 @@ typedef struct aur_adaptive_report {
     aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
     double bias_room;  /* the part of the target error reserved for bias: it gives the same image with a named
                           integrator */
-    size_t race_count; /* candidates of the race; 0: the integrator was named, or its image was resumed */
+    size_t race_count; /* candidates of the race; 0: there was none */
 } aur_adaptive_report;
 
-/* Errors: ARGUMENT when `size` is not set. */
-AUR_EXPERIMENTAL aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *report,
+/* After aur_adaptive_resume the report is that of the saved image. Errors: ARGUMENT when `size` is not set.
+ */
+AUR_EXPERIMENTAL aur_result aur_adaptive_get_report(aur_adaptive *adaptive, aur_adaptive_report *report,
                                                     aur_error *error) AUR_NONNULL(1, 2);
 
 /* A candidate of the race for the integrator. Work is counted in rays, and a photon as two and a half: no

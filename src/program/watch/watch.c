@@ -391,9 +391,8 @@ bool watch_take_turn(watch_session *watch, watch_turn *turn) {
 }
 
 /* Copies up to MOST_CHANNELS channels of an image. */
-static aur_result copy_of(const void *user, aur_image **image, aur_error *error) {
+static aur_result copy_of(const aur_image *from, aur_image **image, aur_error *error) {
     enum { MOST_CHANNELS = 128 };
-    const aur_image *const from = user;
     const char *names[MOST_CHANNELS];
     const size_t all = aur_image_channel_count(from), count = all < MOST_CHANNELS ? all : MOST_CHANNELS;
     for (size_t c = 0; c < count; ++c)
@@ -401,9 +400,13 @@ static aur_result copy_of(const void *user, aur_image **image, aur_error *error)
     return aur_image_select(from, count, names, image, error);
 }
 
+static aur_result develop_finished(void *user, aur_image **image, aur_error *error) {
+    return copy_of(user, image, error);
+}
+
 bool watch_wait_for_turn(watch_session *watch, aur_image *image) {
     const struct timespec moment = {.tv_nsec = 50000000};
-    watch_set_source(watch, &(watch_source){.user = image, .develop = copy_of});
+    watch_set_source(watch, &(watch_source){.user = image, .develop = develop_finished});
     watch->cost = 0.0;
     for (bool open = true; open && !is_turned(watch); nanosleep(&moment, NULL)) {
         pthread_mutex_lock(&watch->lock);

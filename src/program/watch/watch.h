@@ -38,11 +38,11 @@ const char *watch_address(const watch_session *watch);
 
 /* The source of the image during rendering; called by the threads that report progress. */
 typedef struct watch_source {
-    const void *user;
-    aur_result (*develop)(const void *user, aur_image **image, aur_error *error);
+    void *user;
+    aur_result (*develop)(void *user, aur_image **image, aur_error *error);
     /* Writes a description of the image, such as its samples and its error, to text[capacity]; may be NULL.
      */
-    void (*describe)(const void *user, size_t capacity, char *text);
+    void (*describe)(void *user, size_t capacity, char *text);
 } watch_source;
 
 /* Sets the source of the image; zeros: no image. */

@@ -312,8 +312,8 @@ void aur_adaptive_cancel(aur_adaptive *adaptive) {
 /* --- what came out */
 
 /* Also while rounds are rendered: the errors by all measures belong to one round. */
-aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
-    aur_adaptive_measure_others((aur_adaptive *)adaptive); /* which are part of what it has rendered */
+aur_result aur_adaptive_get_report(aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
+    aur_adaptive_measure_others(adaptive);
     const aur_error_interval interval = whole_error(adaptive, adaptive->target.measure);
     aur_adaptive_report local = {.error = interval.estimate,
                                  .error_low = interval.low,
@@ -359,7 +359,7 @@ aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index
                                     .reason = entry->reason};
     if (local.taken)
         local.reason = "taken";
-    else if (!entry->out)
+    else if (entry->reason[0] == '\0')
         local.reason = entry->need > 0.0 ? "more work than the one taken" : "not measured";
     return aur_description_write(&local, sizeof local, out, "aur_adaptive_candidate", error);
 }

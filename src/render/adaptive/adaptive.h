@@ -59,8 +59,6 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
 /* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 
-/* Computes `bias` by all measures from the corrections. */
-void aur_adaptive_bound_bias(aur_adaptive *adaptive);
 /* Computes the errors of the last finished round by the measures that no round depends on, unless that was
  * done. */
 void aur_adaptive_measure_others(aur_adaptive *adaptive);

@@ -35,14 +35,8 @@ static const struct field {
     FIELD(others.all),
     FIELD(race.order_count),
     FIELD(race.order),
-    FIELD(race.entries[AUR_RACE_PATH].need),
-    FIELD(race.entries[AUR_RACE_SHARED].need),
-    FIELD(race.entries[AUR_RACE_MIDDLE].need),
-    FIELD(race.entries[AUR_RACE_LIGHTS].need),
-    FIELD(race.entries[AUR_RACE_LONG].need),
-    FIELD(race.entries[AUR_RACE_CANDIDATES].need),
-    FIELD(race.entries[AUR_RACE_EIGHT].need),
-    FIELD(race.entries[AUR_RACE_FOUR].need),
+    FIELD(race.entries), /* whose arrays are released */
+    FIELD(bias),
     FIELD(candidate.rate),
     FIELD(candidate.finished),
     FIELD(candidate.rays_before),
@@ -57,7 +51,7 @@ static const struct field {
 /* Words before them. */
 enum { ROW, PHOTONS, STEPS, FLAGS, BUDGET, TRACED, FIRST_FIELD };
 
-/* From a file into `adaptive`, or of it, which does not change then. */
+/* From a file into `adaptive`, or from this. */
 static void transfer_state(transfer *to, aur_adaptive *adaptive) {
     aur_candidate *const candidate = &adaptive->candidate;
     to->count = FIRST_FIELD;
@@ -69,31 +63,31 @@ static void transfer_state(transfer *to, aur_adaptive *adaptive) {
     transfer_bytes(to, candidate->pixels, candidate->replicas.pixel_count * sizeof *candidate->pixels);
 }
 
-static size_t word_count(const aur_adaptive *adaptive) {
+static size_t word_count(aur_adaptive *adaptive) {
     transfer counted = {.word = NULL};
-    transfer_state(&counted, (aur_adaptive *)adaptive);
+    transfer_state(&counted, adaptive);
     return counted.count + adaptive->candidate.replicas.count * AUR_SPENT_WORDS;
 }
 
-aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
+aur_result aur_adaptive_save(aur_adaptive *adaptive, const char *path, aur_error *error) {
     const aur_candidate *const candidate = &adaptive->candidate;
     if (adaptive->identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image with the option 'resumable' can be saved");
     if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
-    aur_adaptive_measure_others((aur_adaptive *)adaptive);
+    aur_adaptive_measure_others(adaptive);
     const size_t count = word_count(adaptive);
     transfer to = {.word = calloc(count, sizeof *to.word)};
     if (to.word == NULL)
         return aur_fail_memory(error);
-    to.word[ROW] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
+    to.word[ROW] = adaptive->row;
     to.word[PHOTONS] = adaptive->photons;
     to.word[STEPS] = adaptive->corrections.steps;
     to.word[FLAGS] =
         (uint64_t)candidate->begun + 2 * (uint64_t)candidate->looked_at + 4 * (uint64_t)adaptive->unchecked;
     to.word[BUDGET] = aur_adaptive_other_rays(adaptive);
     to.word[TRACED] = candidate->traced;
-    transfer_state(&to, (aur_adaptive *)adaptive);
+    transfer_state(&to, adaptive);
     const aur_film *films[AUR_REPLICAS_MAX];
     for (size_t r = 0; r < candidate->replicas.count; ++r) {
         films[r] = aur_render_film(candidate->replicas.renders[r]);
@@ -106,9 +100,11 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
 }
 
 static bool is_damaged(const aur_adaptive *adaptive) {
-    bool damaged = adaptive->rank >= AUR_RACE_ROWS || adaptive->race.order_count > AUR_RACE_ROWS;
+    const aur_race *const race = &adaptive->race;
+    bool damaged = adaptive->rank >= AUR_RACE_ROWS || race->order_count > AUR_RACE_ROWS;
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-        damaged = damaged || adaptive->race.order[i] >= AUR_RACE_ROWS;
+        damaged = damaged || race->order[i] >= AUR_RACE_ROWS ||
+                  memchr(race->entries[i].reason, '\0', sizeof race->entries[i].reason) == NULL;
     return damaged;
 }
 
@@ -123,6 +119,10 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         return result;
     transfer from = {.reads = true, .word = saved->words};
     transfer_state(&from, adaptive);
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        adaptive->race.entries[i].values = NULL;
+        adaptive->race.entries[i].roots = NULL;
+    }
     if (words[ROW] >= AUR_RACE_ROWS || is_damaged(adaptive))
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
     adaptive->open = false;
@@ -136,11 +136,9 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         result = aur_fail_in(error, aur_render_merge(candidate->replicas.renders[r], saved->films[r], error),
                              path);
     }
-    if (result == AUR_OK && words[STEPS] > 0 && aur_race_gathers(adaptive->row)) {
-        aur_candidate_measure(candidate);
+    aur_candidate_measure(candidate);
+    if (result == AUR_OK && words[STEPS] > 0 && aur_race_gathers(adaptive->row))
         result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);
-        aur_adaptive_bound_bias(adaptive);
-    }
     adaptive->others_rounds = candidate->rounds; /* the file has them */
     adaptive->others_steps = adaptive->corrections.steps;
     return result;

@@ -212,11 +212,6 @@ void aur_adaptive_measure_others(aur_adaptive *adaptive) {
     adaptive->others_steps = steps;
 }
 
-void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
-    bound_bias_by(adaptive, adaptive->target.measure);
-    bound_others(adaptive);
-}
-
 /* More samples narrow the interval of the bias, not more blocks. */
 static bool are_samples_due(const aur_adaptive *adaptive) {
     const aur_corrections *const corrections = &adaptive->corrections;
@@ -232,10 +227,10 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     return result;
 }
 
-static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *error) {
+static aur_result reject(aur_adaptive *adaptive, bool too_large, bool *again, aur_error *error) {
+    *again = true;
     aur_race *const race = &adaptive->race;
     aur_race_entry *const entry = &race->entries[adaptive->row];
-    entry->out = true;
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
              too_large ? "the bias of its photon map is too large for the target error"
                        : "more rays are needed to bound the bias of its photon map than are saved");
@@ -281,16 +276,13 @@ static bool is_met(const aur_adaptive *adaptive) {
 
 /* The noise leaves too little to the bias: more corrections if these are behind, else less noise. Rejects the
  * candidate if path tracing takes fewer rays from the start than are left here. */
-static aur_result make_room(aur_adaptive *adaptive, bool *again, aur_error *error) {
+static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bool *again, aur_error *error) {
     const double bound = adaptive->candidate.bound / adaptive->target.error;
-    const rest_of_work rest = find_rest(adaptive);
     const double least =
         fmax(adaptive->race.entries[AUR_RACE_PATH].need, aur_replicas_rays(&adaptive->candidate.replicas));
-    if (!(rest.rays <= least) || adaptive->level < LEAST_LEVEL) {
-        *again = true;
-        return reject(adaptive, false, error);
-    }
-    if (adaptive->bias[adaptive->target.measure].high > rest.bias)
+    if (!(rest->rays <= least) || adaptive->level < LEAST_LEVEL)
+        return reject(adaptive, false, again, error);
+    if (adaptive->bias[adaptive->target.measure].high > rest->bias)
         return correct(adaptive, error);
     while (adaptive->level >= bound * bound)
         adaptive->level *= AUR_NEXT_NOISE_LEVEL;
@@ -299,15 +291,15 @@ static aur_result make_room(aur_adaptive *adaptive, bool *again, aur_error *erro
 }
 
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
-static bool are_corrections_due(const aur_adaptive *adaptive) {
+static bool are_corrections_due(const aur_adaptive *adaptive, const rest_of_work *rest) {
     const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
     const double reserve = adaptive->target.rays > 0 ? (double)aur_adaptive_reserve(adaptive) : INFINITY;
-    const bool bounded = adaptive->target.error > 0.0;
+    const bool small = adaptive->bias[adaptive->target.measure].high <= rest->bias;
     if (adaptive->corrections.steps == 0)
         return true;
     return 1.5 * aur_replicas_rays(&adaptive->corrections.replicas) <=
                fmin(CORRECTIONS_PART * rays, reserve) &&
-           !(bounded && adaptive->bias[adaptive->target.measure].high <= find_rest(adaptive).bias);
+           !(adaptive->target.error > 0.0 && small);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
@@ -322,17 +314,19 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
     }
     if (!last && adaptive->corrections.steps > 0) /* by the values of the round */
         bound_bias_by(adaptive, adaptive->target.measure);
-    while (result == AUR_OK && are_corrections_due(adaptive))
-        result = correct(adaptive, error);
-    if (result == AUR_OK && square > 0.0 && bias->low > BIAS_PART * square) {
-        *again = true;
-        result = reject(adaptive, true, error);
-    }
     const bool ends = square > 0.0 && last && adaptive->candidate.bound <= aur_adaptive_goal(adaptive).noise;
-    while (result == AUR_OK && !*again && ends && !is_met(adaptive))
-        result = make_room(adaptive, again, error);
-    if (result != AUR_OK)
-        return result;
-    adaptive->unchecked = false;
-    return AUR_OK;
+    for (bool done = false; result == AUR_OK && !done;) {
+        const rest_of_work rest = find_rest(adaptive);
+        if (are_corrections_due(adaptive, &rest))
+            result = correct(adaptive, error);
+        else if (square > 0.0 && bias->low > BIAS_PART * square)
+            result = reject(adaptive, true, again, error);
+        else if (ends && !is_met(adaptive))
+            result = make_room(adaptive, &rest, again, error);
+        else
+            done = true;
+        done = done || *again;
+    }
+    adaptive->unchecked = result != AUR_OK;
+    return result;
 }

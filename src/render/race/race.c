@@ -24,13 +24,16 @@ static const double LEAST_SECONDS = 0.3, LONG_SECONDS = 2.0;
 /* Samples per pixel that a replica of each row renders: whole patterns. */
 static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2, 2};
 
-static void set_reason(aur_race_entry *entry, bool out, const char *reason) {
-    entry->out = out;
+static void drop(aur_race_entry *entry, const char *reason) {
     snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
 }
 
+static bool is_out(const aur_race_entry *entry) {
+    return entry->reason[0] != '\0';
+}
+
 static bool is_measured(const aur_race_entry *entry, size_t blocks) {
-    return !entry->out && entry->blocks >= blocks && blocks > 0;
+    return !is_out(entry) && entry->blocks >= blocks && blocks > 0;
 }
 
 /* The pixels of block `b` of the order. */
@@ -229,7 +232,7 @@ static size_t best_of(const aur_race *race, size_t blocks) {
 
 /* Drops what is worse than the best in nearly all resamplings of the blocks (bootstrap). Returns how many are
  * left. */
-static size_t drop(aur_race *race, size_t blocks, size_t best) {
+static size_t drop_worse(aur_race *race, size_t blocks, size_t best) {
     size_t worse[AUR_RACE_ROWS] = {0}, left = 0;
     for (size_t k = 0; k < RESAMPLINGS; ++k) {
         double sums[AUR_RACE_ROWS] = {0.0};
@@ -247,8 +250,8 @@ static size_t drop(aur_race *race, size_t blocks, size_t best) {
         if (!is_measured(&race->entries[i], blocks))
             continue;
         if (i != best && (double)worse[i] >= race->limits->confidence * RESAMPLINGS)
-            set_reason(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
-        left += !race->entries[i].out;
+            drop(&race->entries[i], "dropped: more work in 95 % of resamplings");
+        left += !is_out(&race->entries[i]);
     }
     return left;
 }
@@ -297,7 +300,7 @@ static aur_result run_smallest(aur_race *race, size_t blocks, aur_error *error) 
     if (result == AUR_OK && race->error > 0.0 && is_measured(shared, blocks) &&
         shared->need <= least_work(race, AUR_RACE_SHARED))
         return render_blocks(race, AUR_RACE_FOUR, blocks, error);
-    set_reason(&race->entries[AUR_RACE_FOUR], true, "not tried: only for coarse targets");
+    drop(&race->entries[AUR_RACE_FOUR], "not tried: only for coarse targets");
     return result;
 }
 
@@ -318,20 +321,18 @@ static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
         const bool needed =
             (path && row == AUR_RACE_PATH) || (smaller && (row == small || row == AUR_RACE_CANDIDATES));
         if (row == AUR_RACE_CANDIDATES && !has_choice)
-            set_reason(&race->entries[row], true, "not tried: there is a single light");
+            drop(&race->entries[row], "not tried: there is a single light");
         else if (needed || spent_work(race) + first_rung(race, row) <= most)
             result = render_blocks(race, row, blocks, error);
         else
-            set_reason(&race->entries[row], true,
-                       "not tried: its first blocks cost more than a fifth of the image");
+            drop(&race->entries[row], "not tried: its first blocks cost more than a fifth of the image");
     }
     const size_t unused = race->apart ? AUR_RACE_SHARED : AUR_RACE_EIGHT;
-    set_reason(&race->entries[unused], true,
-               race->apart ? "not tried: denoisers keep noise that pixels share"
-                           : "not tried: only for denoised images by a time limit");
+    drop(&race->entries[unused], race->apart ? "not tried: denoisers keep noise that pixels share"
+                                             : "not tried: only for denoised images by a time limit");
     for (size_t row = 0; row < AUR_RACE_ROWS && result == AUR_OK; ++row)
         if (aur_race_gathers(row) && is_measured(&race->entries[row], blocks) && !fits(race, row))
-            set_reason(&race->entries[row], true, "one pattern in each pixel takes longer than requested");
+            drop(&race->entries[row], "one pattern in each pixel takes longer than requested");
     return result;
 }
 
@@ -340,16 +341,16 @@ static aur_result run_rungs(aur_race *race, size_t blocks, aur_error *error) {
     for (;;) {
         aur_result result = measure(race, blocks, error);
         const size_t best = best_of(race, blocks);
-        const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop(race, blocks, best) : 0;
+        const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop_worse(race, blocks, best) : 0;
         double next = 0.0;
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-            next += race->entries[i].out ? 0.0 : race->entries[i].rays;
+            next += is_out(&race->entries[i]) ? 0.0 : race->entries[i].rays;
         if (result != AUR_OK || left <= 1 || blocks == race->blocks.count ||
             spent_work(race) + next > race->limits->part * whole_work(race, best))
             return result;
         blocks = 2 * blocks < race->blocks.count ? 2 * blocks : race->blocks.count;
         for (size_t i = 0; i < AUR_RACE_ROWS && result == AUR_OK; ++i)
-            if (!race->entries[i].out)
+            if (!is_out(&race->entries[i]))
                 result = render_blocks(race, i, blocks, error);
         if (result != AUR_OK)
             return result;
@@ -363,8 +364,8 @@ static bool is_black(const aur_race *race, const aur_race_entry *entry) {
     return true;
 }
 
-static int by_need(const aur_race_entry *a, const aur_race_entry *b) {
-    return (a->out && !b->out) || (a->out == b->out && a->need > b->need);
+static bool is_behind(const aur_race_entry *a, const aur_race_entry *b) {
+    return is_out(a) != is_out(b) ? is_out(a) : a->need > b->need;
 }
 
 /* Sorts the measured candidates by predicted work, those not dropped first. Path tracing is always included,
@@ -375,7 +376,7 @@ static void sort(aur_race *race) {
         if (race->entries[i].blocks == 0)
             continue;
         size_t at = race->order_count++;
-        for (; at > 0 && by_need(&race->entries[race->order[at - 1]], &race->entries[i]); --at)
+        for (; at > 0 && is_behind(&race->entries[race->order[at - 1]], &race->entries[i]); --at)
             race->order[at] = race->order[at - 1];
         race->order[at] = i;
     }
@@ -392,7 +393,7 @@ static aur_result run(aur_race *race, aur_error *error) {
     aur_error refused = {0};
     if ((race->budget > 0.0 && race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->replica_count)) ||
         (race->seconds > 0.0 && race->seconds <= LEAST_SECONDS)) {
-        set_reason(middle, true, "not tried: its photons cost more than a quarter of the request");
+        drop(middle, "not tried: its photons cost more than a quarter of the request");
         return AUR_OK;
     }
     aur_result result = render_blocks(race, AUR_RACE_MIDDLE, blocks, &refused);
@@ -402,12 +403,12 @@ static aur_result run(aur_race *race, aur_error *error) {
         return result;
     }
     if (result != AUR_OK) { /* final gathering is not for this scene */
-        set_reason(middle, true, refused.message);
+        drop(middle, refused.message);
         return AUR_OK;
     }
     if (is_black(race, middle)) {
         middle->blocks = 0;
-        set_reason(middle, true, "no light was found in the first blocks");
+        drop(middle, "no light was found in the first blocks");
         return AUR_OK;
     }
     result = measure(race, blocks, error);

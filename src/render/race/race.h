@@ -49,8 +49,7 @@ typedef struct aur_race_entry {
     double rays;     /* all that it took, without photons */
     double samples;  /* of all pixels and replicas */
     double need;     /* estimated work to the target, in rays; 0: not measured */
-    bool out;        /* dropped, not tried, or refused */
-    char reason[96]; /* why it was taken or dropped */
+    char reason[96]; /* why it was dropped, not tried, or refused; else empty */
 } aur_race_entry;
 
 /* How much is compared. */

@@ -55,7 +55,7 @@ static aur_adaptive *create_fresh(fixture *fresh, const fixture *f, const aur_re
     return adaptive(fresh, render, target);
 }
 
-static aur_adaptive_report report_of(const aur_adaptive *rendering) {
+static aur_adaptive_report report_of(aur_adaptive *rendering) {
     aur_adaptive_report report = {.size = sizeof report};
     assert_int_equal(aur_adaptive_get_report(rendering, &report, NULL), AUR_OK);
     return report;
@@ -389,6 +389,66 @@ static void test_cancelled_image_is_preserved(void **state) {
     aur_adaptive_destroy(rendering);
 }
 
+/* Stops in a round after the bias was bounded. */
+static int stop_with_bias(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    (void)done;
+    (void)total;
+    aur_adaptive *const *const rendering = user;
+    return *rendering != NULL && report_of(*rendering).bias_high > 0.0;
+}
+
+static void assert_same_candidates(const aur_adaptive *a, const aur_adaptive *b, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+        aur_adaptive_candidate one = {.size = sizeof one}, other = one;
+        assert_int_equal(aur_adaptive_get_candidate(a, i, &one, NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_get_candidate(b, i, &other, NULL), AUR_OK);
+        assert_string_equal(one.reason, other.reason);
+        assert_true(one.taken == other.taken && one.pixels == other.pixels && one.rays == other.rays &&
+                    one.need == other.need);
+    }
+}
+
+/* Before its first round a resumed image reports what the saved one did: errors, bias, the race. */
+static void test_resumed_report(void **state) {
+    const fixture *const f = *state;
+    aur_adaptive *saved = NULL, *resumed = NULL, *stopped = NULL;
+    aur_render_options options = small(2);
+    options.width = 96;
+    options.height = 72;
+    options.filter = "box";
+    options.resumable = true;
+    options.progress = (aur_progress){stop_with_bias, &stopped};
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.01;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &saved, NULL), AUR_OK);
+    stopped = saved;
+    assert_int_equal(aur_adaptive_run(saved, NULL), AUR_ERROR_CANCELLED);
+    assert_int_equal(aur_adaptive_save(saved, "resumed_report.part", NULL), AUR_OK);
+    aur_adaptive_report before = report_of(saved);
+    stopped = NULL;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &resumed, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_resume(resumed, "resumed_report.part", NULL), AUR_OK);
+    aur_adaptive_report after = report_of(resumed);
+    assert_true(before.race_count > 0 && before.bias_high > 0.0 && before.error_high < 1.0);
+    after.statistics = before.statistics; /* times, and maps that were created again */
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_same_candidates(saved, resumed, before.race_count);
+    assert_int_equal(aur_adaptive_run(saved, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(resumed, NULL), AUR_OK);
+    before = report_of(saved);
+    after = report_of(resumed);
+    after.statistics = before.statistics;
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_same_candidates(saved, resumed, before.race_count);
+    assert_same_image(saved, resumed);
+    remove("resumed_report.part");
+    aur_adaptive_destroy(saved);
+    aur_adaptive_destroy(resumed);
+}
+
 static void test_bad_wishes(void **state) {
     const fixture *const f = *state;
     static const aur_adaptive_options bad[] = {
@@ -428,6 +488,7 @@ int main(void) {
                                        cmocka_unit_test(test_rounds_and_rays),
                                        cmocka_unit_test(test_rays_make_the_pattern),
                                        cmocka_unit_test(test_cancelled_image_is_preserved),
+                                       cmocka_unit_test(test_resumed_report),
                                        cmocka_unit_test(test_bad_wishes)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

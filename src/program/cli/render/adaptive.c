@@ -100,8 +100,7 @@ static void print_command(const aur_adaptive *adaptive, const cli_target *target
     aur_print(stderr, "\n");
 }
 
-static void print_result(const aur_adaptive *adaptive, const cli_target *target, const char *output,
-                         bool verbose) {
+static void print_result(aur_adaptive *adaptive, const cli_target *target, const char *output, bool verbose) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);
     const aur_render_statistics *const spent = &report.statistics;
@@ -141,7 +140,7 @@ void cli_report_denoised(const aur_error_figures *figures, aur_error_measure mea
               100.0 * figures->error, measure_texts[measure], 100.0 * figures->high);
 }
 
-static aur_result print_json(const aur_adaptive *adaptive, const char *output, const aur_image *image,
+static aur_result print_json(aur_adaptive *adaptive, const char *output, const aur_image *image,
                              aur_error *error) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);

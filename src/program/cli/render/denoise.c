@@ -23,7 +23,7 @@ void cli_denoise_end(cli_denoise *denoise) {
 
 /* Samples per pixel that take about a tenth of the image's rays. Fewer show in the denoised image, many more
  * do not. */
-static size_t feature_samples(const aur_adaptive *adaptive, size_t pixels) {
+static size_t feature_samples(aur_adaptive *adaptive, size_t pixels) {
     const double part = 0.1, rays_per_sample = 2.0, least = 8.0, most = 64.0;
     enum { UNKNOWN_RAYS = 16 };
     aur_adaptive_report report = {.size = sizeof report};
@@ -117,7 +117,7 @@ static aur_result denoise_halves(const cli_denoise *denoiser, const aur_adaptive
 }
 
 aur_result cli_denoise_image(const cli_denoise *denoiser, aur_renderer *renderer,
-                             const aur_render_options *options, const aur_adaptive *adaptive, bool bounds,
+                             const aur_render_options *options, aur_adaptive *adaptive, bool bounds,
                              aur_image **image, aur_error_figures *figures, aur_error *error) {
     *figures = (aur_error_figures){.error = 0.0};
     if (!denoiser->enabled)

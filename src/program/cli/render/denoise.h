@@ -24,7 +24,7 @@ void cli_denoise_end(cli_denoise *denoise);
  * error; otherwise zeros.
  * Errors: INTERNAL with the library's message, and those of aur_renderer_render. */
 aur_result cli_denoise_image(const cli_denoise *denoise, aur_renderer *renderer,
-                             const aur_render_options *options, const aur_adaptive *adaptive, bool bounds,
+                             const aur_render_options *options, aur_adaptive *adaptive, bool bounds,
                              aur_image **image, aur_error_figures *figures, aur_error *error);
 
 /* Writes the noisy image to OUT.noisy.exr if the output format only has R, G and B. */

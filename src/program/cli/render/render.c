@@ -282,7 +282,7 @@ static aur_result begin(render_command *command, aur_error *error) {
     return result;
 }
 
-static aur_result denoise(const render_command *command, aur_renderer *renderer, const aur_adaptive *adaptive,
+static aur_result denoise(const render_command *command, aur_renderer *renderer, aur_adaptive *adaptive,
                           aur_image **image, aur_error *error) {
     aur_error_figures halves;
     const aur_result result = cli_denoise_image(&command->denoise, renderer, &command->options, adaptive,

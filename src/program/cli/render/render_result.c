@@ -57,7 +57,7 @@ static void print_figures(report_table *table, const char *measure, const aur_er
 }
 
 /* "NAME: RAYS rays, needs NEED, REASON; ..."; empty without a race. */
-static void print_race(report_table *table, const aur_adaptive *adaptive) {
+static void print_race(report_table *table, aur_adaptive *adaptive) {
     char text[1024] = "";
     aur_adaptive_report report = {.size = sizeof report};
     if (adaptive != NULL)

@@ -23,7 +23,7 @@ typedef struct cli_render_summary {
     double mean, rounds, samples_per_pixel;
     double clamped;                    /* cli_clamped_part */
     const aur_error_figures *measures; /* [AUR_ERROR_MEASURE_COUNT], or NULL */
-    const aur_adaptive *adaptive;      /* the race to list, or NULL */
+    aur_adaptive *adaptive;            /* the race to list, or NULL */
     aur_render_statistics statistics;
 } cli_render_summary;
 
@@ -53,7 +53,7 @@ typedef struct cli_checkpoint {
     bool resume;
     /* One of these is set once there is something to save. */
     const aur_render *render;
-    const aur_adaptive *adaptive;
+    aur_adaptive *adaptive;
     aur_progress progress; /* the next callback */
     double last;           /* time of the last write or attempt */
     bool writes;           /* this process writes */
@@ -107,7 +107,7 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress);
 
 /* From now on there is an image to show, until cli_watch_hide; one of `render` and `adaptive` is NULL. */
-void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive);
+void cli_watch_show(cli_watch *watch, aur_render *render, aur_adaptive *adaptive);
 void cli_watch_hide(cli_watch *watch);
 /* Renders `count` more samples per pixel, or all remaining ones for 0, and reports the error. */
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error);

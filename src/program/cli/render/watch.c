@@ -68,15 +68,15 @@ aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress) {
     return (aur_progress){.function = show, .user = watch};
 }
 
-static aur_result develop_render(const void *user, aur_image **image, aur_error *error) {
+static aur_result develop_render(void *user, aur_image **image, aur_error *error) {
     return aur_film_develop(aur_render_film(user), image, error);
 }
 
-static aur_result develop_adaptive(const void *user, aur_image **image, aur_error *error) {
+static aur_result develop_adaptive(void *user, aur_image **image, aur_error *error) {
     return aur_adaptive_develop(user, true, image, error);
 }
 
-static void describe_adaptive(const void *user, size_t capacity, char *text) {
+static void describe_adaptive(void *user, size_t capacity, char *text) {
     aur_adaptive_report report = {.size = sizeof report};
     if (aur_adaptive_get_report(user, &report, NULL) != AUR_OK || !isfinite(report.error_high))
         return;
@@ -91,10 +91,10 @@ static void describe_adaptive(const void *user, size_t capacity, char *text) {
     }
 }
 
-void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive) {
+void cli_watch_show(cli_watch *watch, aur_render *render, aur_adaptive *adaptive) {
     if (watch->watch == NULL)
         return;
-    const watch_source source = {.user = render != NULL ? (const void *)render : adaptive,
+    const watch_source source = {.user = render != NULL ? (void *)render : adaptive,
                                  .develop = render != NULL ? develop_render : develop_adaptive,
                                  .describe = render != NULL ? NULL : describe_adaptive};
     watch_set_source(watch->watch, &source);
