@@ -90,7 +90,8 @@ static void print_help(void) {
          "  --isa    instructions that our kernels and Embree's may use, as if the processor had no wider "
          "ones;\n"
          "           else AUREOLE_ISA's, or all it has. What a bench used is printed behind its name\n"
-         "  --only   of adaptive-calibration and adaptive-speed, the scenes with TEXT in their names\n"
+         "  --only   of adaptive, adaptive-calibration and adaptive-speed, the rooms or scenes with TEXT in "
+         "their names\n"
          "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
 }
 

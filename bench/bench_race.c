@@ -1,5 +1,5 @@
 /* Cost of choosing the integrator for a target error, in rooms generated from seeds: CPU time of the chosen
- * candidate and of the whole render, over the best candidate's. */
+ * candidate and of the whole request, over the best candidate's. */
 #include <aureole-render/adaptive.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,15 +7,27 @@
 #include <string.h>
 
 #include "bench.h"
-#include "render/race/race.h"
+#include "render/adaptive/adaptive.h"
 #include "room.h"
 
-enum { ROOMS = 12, QUICK_ROOMS = 2 };
+enum { FIRST_ROOM = 101, ROOMS = 24, QUICK_ROOMS = 2 };
 
-/* CPU seconds to the target error with an integrator, or with the race (NULL), extrapolated from the error
- * that the render reached. Infinite on failure. */
-static double cost(aur_renderer *renderer, const char *integrator, aur_error_measure measure, double error,
-                   char chosen[256]) {
+typedef struct target {
+    aur_error_measure measure;
+    double error;
+} target;
+
+typedef struct outcome {
+    double seconds, rays; /* CPU time and work of all */
+    bool met;             /* not stopped by the limit of rays */
+    size_t row;           /* of the race, and what it predicted: */
+    double needs[AUR_RACE_ROWS];
+} outcome;
+
+/* An image to the target with an integrator, or with the race (NULL), by at most so many rays (0: no limit).
+ */
+static bool run_to(const aur_scene *scene, const char *integrator, const target *goal, double most,
+                   outcome *found) {
     aur_render_options render = {.size = sizeof render};
     aur_render_options_init(&render, NULL);
     render.width = 128;
@@ -23,23 +35,31 @@ static double cost(aur_renderer *renderer, const char *integrator, aur_error_mea
     render.threads = 1;
     render.use_cache = 0;
     render.integrator = integrator;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = error;
-    target.measure = measure;
+    aur_adaptive_options options = {.size = sizeof options};
+    aur_adaptive_options_init(&options, NULL);
+    options.error = goal->error;
+    options.measure = goal->measure;
+    options.rays = (uint64_t)most;
     if (integrator != NULL && strncmp(integrator, "finalgather", 11) == 0)
-        target.bias = 0.5 * error;
+        options.bias = 0.5 * goal->error;
+    aur_renderer *renderer = NULL;
     aur_adaptive *adaptive = NULL;
     aur_adaptive_report report = {.size = sizeof report};
-    double seconds = INFINITY;
-    if (aur_adaptive_create(renderer, &render, &target, &adaptive, NULL) == AUR_OK &&
-        aur_adaptive_run(adaptive, NULL) == AUR_OK &&
-        aur_adaptive_get_report(adaptive, &report, NULL) == AUR_OK)
-        seconds = report.statistics.cpu_seconds;
-    if (chosen != NULL)
-        snprintf(chosen, 256, "%s", adaptive != NULL ? aur_adaptive_integrator(adaptive) : "");
+    const bool good = aur_renderer_create(scene, &renderer, NULL) == AUR_OK &&
+                      aur_adaptive_create(renderer, &render, &options, &adaptive, NULL) == AUR_OK &&
+                      aur_adaptive_run(adaptive, NULL) == AUR_OK &&
+                      aur_adaptive_get_report(adaptive, &report, NULL) == AUR_OK;
+    if (good) {
+        *found = (outcome){.seconds = report.statistics.cpu_seconds,
+                           .rays = (double)report.statistics.rays,
+                           .met = report.error_high <= goal->error || most == 0.0,
+                           .row = adaptive->row};
+        for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+            found->needs[i] = adaptive->race.entries[i].need;
+    }
     aur_adaptive_destroy(adaptive);
-    return seconds;
+    aur_renderer_destroy(renderer);
+    return good;
 }
 
 typedef struct ratios {
@@ -47,58 +67,82 @@ typedef struct ratios {
     size_t count;
 } ratios;
 
-static bool run_room(uint64_t seed, aur_error_measure measure, double error, ratios *sum) {
-    static bench_room generated;
-    bench_room_make(seed, &generated);
-    aur_scene *scene = NULL;
-    if (aur_scene_load_memory("room.xml", generated.used, generated.text, NULL, &scene, NULL) != AUR_OK)
-        return false;
-    double best = INFINITY, chosen_seconds = INFINITY;
-    char chosen[256], best_name[32] = "";
-    aur_renderer *renderer = NULL;
-    const bool created = aur_renderer_create(scene, &renderer, NULL) == AUR_OK;
-    const double whole = created ? cost(renderer, NULL, measure, error, chosen) : INFINITY;
-    aur_renderer_destroy(renderer);
-    for (size_t row = 0; row < AUR_RACE_ROWS && created; ++row) {
-        char *const text = aur_race_integrator(row, "path", 100000, 0);
-        renderer = NULL;
-        if (text != NULL && aur_renderer_create(scene, &renderer, NULL) == AUR_OK) {
-            const double seconds = cost(renderer, text, measure, error, NULL);
-            const char *const keys = strstr(text, "photons=");
-            const size_t same = keys != NULL ? (size_t)(keys - text) : strlen(text);
-            if (strncmp(text, chosen, same) == 0)
-                chosen_seconds = seconds;
-            if (seconds < best) {
-                best = seconds;
-                snprintf(best_name, sizeof best_name, "%s", aur_race_name(row));
-            }
+static bool run_row(const aur_scene *scene, size_t row, const target *goal, double most, outcome *found) {
+    char *const text = aur_race_integrator(row, "path", 100000, 0);
+    const bool good = text != NULL && run_to(scene, text, goal, most, found);
+    free(text);
+    return good;
+}
+
+/* All candidates; what takes four times as many rays as the chosen one is not the best by any price of a ray.
+ * The row that is only for denoised images is left out. */
+static bool run_rows(const aur_scene *scene, const target *goal, size_t chosen, outcome rows[AUR_RACE_ROWS]) {
+    bool good = run_row(scene, chosen, goal, 0.0, &rows[chosen]);
+    for (size_t i = 0; i < AUR_RACE_ROWS && good; ++i)
+        if (i == AUR_RACE_EIGHT)
+            rows[i] = (outcome){.met = false};
+        else if (i != chosen)
+            good = run_row(scene, i, goal, 4.0 * rows[chosen].rays, &rows[i]);
+    return good;
+}
+
+static void print_rows(const outcome *whole, const outcome rows[AUR_RACE_ROWS]) {
+    const size_t chosen = whole->row;
+    printf("       ");
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        if (i != AUR_RACE_EIGHT) {
+            printf(" %s %s%.2f", aur_race_name(i), rows[i].met ? "" : ">",
+                   rows[i].seconds / rows[chosen].seconds);
+            if (whole->needs[i] > 0.0)
+                printf(" (%.2f)", whole->needs[i] / whole->needs[chosen]);
         }
-        aur_renderer_destroy(renderer);
-        free(text);
-    }
-    aur_scene_destroy(scene);
-    if (!(best > 0.0 && best < INFINITY && chosen_seconds < INFINITY && whole < INFINITY))
+    printf("\n");
+}
+
+static bool run_room(const aur_scene *scene, uint64_t seed, const target *goal, ratios *sum) {
+    outcome whole, rows[AUR_RACE_ROWS];
+    if (!run_to(scene, NULL, goal, 0.0, &whole) || !run_rows(scene, goal, whole.row, rows))
         return false;
-    printf("  %4llu  %-8s %4.0f %%  %-18s %8.2f s  choice %5.2f  whole %5.2f\n", (unsigned long long)seed,
-           aur_error_measure_name(measure), 100.0 * error, best_name, best, chosen_seconds / best,
-           whole / best);
+    size_t best = whole.row;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        if (rows[i].met && rows[i].seconds < rows[best].seconds)
+            best = i;
+    const double choice = rows[whole.row].seconds / rows[best].seconds;
+    const double all = whole.seconds / rows[best].seconds;
+    printf("  %4llu  %-8s %4.0f %%  %-16s  %-16s %8.2f  %6.2f  %6.2f\n", (unsigned long long)seed,
+           aur_error_measure_name(goal->measure), 100.0 * goal->error, aur_race_name(whole.row),
+           aur_race_name(best), rows[best].seconds, choice, all);
+    print_rows(&whole, rows);
     fflush(stdout);
-    sum->choice += log(chosen_seconds / best);
-    sum->whole += log(whole / best);
-    sum->worst_choice = fmax(sum->worst_choice, chosen_seconds / best);
-    sum->worst_whole = fmax(sum->worst_whole, whole / best);
+    sum->choice += log(choice);
+    sum->whole += log(all);
+    sum->worst_choice = fmax(sum->worst_choice, choice);
+    sum->worst_whole = fmax(sum->worst_whole, all);
     ++sum->count;
     return true;
 }
 
 static bool run(const bench_options *options) {
+    static bench_room room;
     ratios sum = {.count = 0};
-    printf("  room  measure   error  best candidate       CPU s, over it the chosen one and the whole "
-           "request\n");
-    for (uint64_t k = 0; k < (options->quick ? QUICK_ROOMS : ROOMS); ++k)
-        for (int m = 0; m < (options->quick ? 1 : 2); ++m)
-            if (!run_room(101 + k, (aur_error_measure)m, options->quick ? 0.1 : 0.05, &sum))
-                printf("  %4llu  failed\n", (unsigned long long)(101 + k));
+    printf(
+        "  room  measure   error  chosen            best               CPU s  over it the chosen one and "
+        "the whole request;\n        below, CPU times relative to the chosen one's, and in brackets as the "
+        "race predicted\n");
+    for (uint64_t seed = FIRST_ROOM; seed < FIRST_ROOM + (options->quick ? QUICK_ROOMS : ROOMS); ++seed) {
+        char name[24];
+        snprintf(name, sizeof name, "%llu", (unsigned long long)seed);
+        if (options->only != NULL && strstr(name, options->only) == NULL)
+            continue;
+        aur_scene *scene = NULL;
+        bench_room_make(seed, &room);
+        bool good = aur_scene_load_memory("room.xml", room.used, room.text, NULL, &scene, NULL) == AUR_OK;
+        for (int m = 0; m < (options->quick ? 1 : 2) && good; ++m)
+            good = run_room(scene, seed, &(target){(aur_error_measure)m, options->quick ? 0.1 : 0.05}, &sum);
+        if (!good)
+            printf("  %4s  failed\n", name);
+        aur_scene_destroy(scene);
+    }
     if (sum.count == 0)
         return false;
     printf("  geometric mean: choice %.2f, whole %.2f; worst %.2f, %.2f\n",
