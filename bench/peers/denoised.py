@@ -11,12 +11,12 @@ the error: the root of the mean of (x - a)(x - b), relative to the mean of the r
 import ctypes
 import math
 import os
-import re
 import sys
 
 import time_to_quality as peers
+from mitsuba_scene import PATH, change, cpu_seconds, read
 
-FEATURES = '<integrator type="aov"><string name="aovs" value="albedo:albedo,normal:sh_normal"/>'
+FEATURES = f'<integrator type="aov"><string name="aovs" value="albedo:albedo,normal:sh_normal"/>{PATH}</integrator>'
 
 
 def denoise(*images):
@@ -56,9 +56,7 @@ def read_pfm(path):
 def load(name, width, height):
     import mitsuba as mi
     path, _, _, definitions = (peers.SCENES | peers.BUNDLED)[name]
-    text = peers.scene_text(path, width, height, definitions)
-    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', text)
-    return mi.load_string(re.sub(r"(<integrator.*?</integrator>)", FEATURES + r"\1</integrator>", text, flags=re.S))
+    return mi.load_string(change(read(path, definitions), FEATURES, "multijitter", "box", width, height))
 
 
 def main():
@@ -75,10 +73,10 @@ def main():
     samples, spent = 4, 0.0
     while 4.0 * spent < limit:
         np.array(mi.render(scene, spp=samples, seed=999))  # compiles the kernels
-        start = peers.cpu_seconds()
+        start = cpu_seconds()
         image = np.array(mi.render(scene, spp=samples, seed=1), dtype=np.float32)
         clean = denoise(*(image[:, :, first:first + 3] for first in (0, 3, 6))).astype(np.float64)
-        spent = peers.cpu_seconds() - start
+        spent = cpu_seconds() - start
         error = math.sqrt(max(((clean - a) * (clean - b)).mean(), 0.0)) / ((a.mean() + b.mean()) / 2)
         print(samples, spent, error, flush=True)
         if error <= target:

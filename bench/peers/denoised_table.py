@@ -25,28 +25,17 @@ import sys
 import tempfile
 
 from denoised import FEATURES, denoise
-from time_to_quality import cpu_seconds
+from mitsuba_scene import PATH, change, cpu_seconds, load, read, split
 
-PATH = '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>'
 LONG, PART = 512, 64  # samples per pixel of references, and of each of their parts
 
 
-def scene_text(path, integrator):
-    with open(path, encoding="utf-8") as file:
-        text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
-    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', text)
-    text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
-    return re.sub(r"<integrator[^>]*/>|<integrator.*</integrator>", "", text, flags=re.S).replace("</scene>", integrator + "</scene>")
-
-
-class Copy:
-    """A copy of a scene next to it, because file names are relative."""
-
-    def __init__(self, path, integrator):
-        self.file = tempfile.NamedTemporaryFile("w", suffix=".xml", dir=os.path.dirname(os.path.abspath(path)))
-        self.file.write(scene_text(path, integrator))
-        self.file.flush()
-        self.name = self.file.name
+def copy(path, folder):
+    """The name of a copy in `folder`, by path tracing and the filter box."""
+    name = os.path.join(folder, os.path.basename(path))
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(change(read(path), rfilter="box"))
+    return name
 
 
 def mitsuba(path, width, height, integrator):
@@ -54,12 +43,7 @@ def mitsuba(path, width, height, integrator):
     import drjit as dr
     import mitsuba as mi
     import numpy as np
-    copy = Copy(path, integrator)
-    scene = mi.load_file(copy.name, parallel=False)
-    sensor = scene.sensors()[0]
-    parameters = mi.traverse(sensor)
-    parameters["film.size"] = parameters["film.crop_size"] = [width, height]
-    parameters.update()
+    scene, sensor = load(change(read(path), integrator, "multijitter", "box"), width, height)
 
     def render(samples, seed):
         dr.set_thread_count(1)
@@ -96,8 +80,7 @@ def references(program, path, width, height, folder):
     if not os.path.exists(stored):
         render = mitsuba(path, width, height, PATH)
         theirs = np.mean([render(PART, 100 + part)[0][:, :, :3].astype(np.float64) for part in range(LONG // PART)], axis=0)
-        copy = Copy(path, PATH)
-        ours = aureole(program, copy.name, width, height, ["--integrator", "path", "--samples", str(LONG), "--seed", "77"])[0]
+        ours = aureole(program, copy(path, folder), width, height, ["--integrator", "path", "--samples", str(LONG), "--seed", "77"])[0]
         np.savez(stored, ours=ours, theirs=theirs)
     both = np.load(stored)
     return both["ours"], both["theirs"]
@@ -115,7 +98,7 @@ def relative_mse(image, a, b):
 def peer(path, width, height, samples, a, b, keep):
     """Seconds and error of Mitsuba's denoised image, means over three seeds."""
     import numpy as np
-    render = mitsuba(path, width, height, FEATURES + PATH + "</integrator>")
+    render = mitsuba(path, width, height, FEATURES)
     render(samples, 999)
     seconds, errors = [], []
     for seed in (1, 2, 3):
@@ -130,10 +113,10 @@ def peer(path, width, height, samples, a, b, keep):
 
 def ours(program, path, width, height, seconds, a, b, keep, options):
     """The error at equal seconds, and the integrator."""
-    copy, found, time = Copy(path, PATH), [], seconds / 8
-    loading = aureole(program, copy.name, 1, 1, ["--integrator", "path", "--samples", "1"])[1]
+    found, time = [], seconds / 8
+    loading = aureole(program, path, 1, 1, ["--integrator", "path", "--samples", "1"])[1]
     while not found or found[-1][0] < seconds and time < 100 * seconds:
-        image, taken, report = aureole(program, copy.name, width, height, ["--time", f"{time}s", "--denoise", *options])
+        image, taken, report = aureole(program, path, width, height, ["--time", f"{time}s", "--denoise", *options])
         taken -= loading
         if not found or taken > found[-1][0]:
             found.append((taken, relative_mse(image, a, b), report.get("integrator", ""), image))
@@ -161,10 +144,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = given.folder or scratch
         for text in given.scenes:
-            path, _, size = text.partition(".xml:")
-            path, size = (path + ".xml", size) if size else (text, "160x120")
-            width, height = map(int, size.split("x"))
-            name = os.path.join(os.path.basename(os.path.dirname(os.path.abspath(path))), os.path.basename(path))
+            path, width, height, name = split(text)
             a, b = references(given.aureole, path, width, height, folder)
             if not 0.99 < a.mean() / b.mean() < 1.01:
                 print(f"| {name} | the references' means differ: {a.mean():.4g}, {b.mean():.4g} |", flush=True)
@@ -173,7 +153,7 @@ def main():
                     if given.folder:
                         mi.Bitmap(image.astype("float32")).write(os.path.join(folder, f"{name.replace('/', '-')}-{samples}-{what}.exr"))
                 seconds, theirs = peer(path, width, height, samples, a, b, keep)
-                mine, integrator = ours(given.aureole, path, width, height, seconds, a, b, keep, given.option)
+                mine, integrator = ours(given.aureole, copy(path, folder), width, height, seconds, a, b, keep, given.option)
                 ratios.append(mine / theirs)
                 print(f"| {name} | {samples} | {seconds:.2f} | {theirs:.5f} | {mine:.5f} | {ratios[-1]:.2f} | {integrator[:60]} |", flush=True)
     print(f"{len(ratios)} ratios: median {statistics.median(ratios):.2f}, largest {max(ratios):.2f}")

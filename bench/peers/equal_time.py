@@ -21,6 +21,7 @@ import mitsuba as mi
 import numpy as np
 
 import time_to_quality
+from mitsuba_scene import change, read
 
 ROOT = os.path.normpath(time_to_quality.ROOT)
 SCENE = "scenes/cornell-box/cornell-box.xml"
@@ -64,7 +65,7 @@ def main():
         folder = given.folder or scratch
         scene = os.path.join(folder, "cornell-box.xml")
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(time_to_quality.scene_text(os.path.join(ROOT, SCENE), SIDE, SIDE, {}))
+            file.write(change(read(os.path.join(ROOT, SCENE)), rfilter="box", width=SIDE, height=SIDE))
         mi.set_variant("llvm_ad_rgb")
         reference_image, reference_error = reference(aureole, scene, folder, given.samples)
         rows = [("reference", "reference", "", "", reference_image, math.sqrt(reference_error) / reference_image.mean())]

@@ -20,9 +20,12 @@ import tempfile
 import mitsuba as mi
 import numpy as np
 
+import mitsuba_scene
+
 mi.set_variant("scalar_rgb")
 SEEDS, BLOCKS, SIZE, SAMPLES = 12, 4, 48, 512
 CHANCE = 0.001
+PATH = '<integrator type="path"><integer name="max_depth" value="8"/></integrator>'
 
 MATERIALS = {
     "diffuse": '<bsdf type="diffuse" id="m"><rgb name="reflectance" value="0.2, 0.5, 0.8"/></bsdf>',
@@ -87,8 +90,7 @@ SENSORS = {
 def scene(materials=MATERIALS["diffuse"], lights=AREA, shapes=BODY, sensor='<sensor type="perspective">'):
     scale = '<scale x="2" y="2"/>' if "orthographic" in sensor else ""
     fov = "" if "orthographic" in sensor else '<float name="fov" value="40"/>'
-    return (f'<scene version="3.0.0"><default name="spp" value="{SAMPLES}"/><integrator type="path">'
-            f'<integer name="max_depth" value="8"/></integrator>{sensor}{fov}<transform name="to_world">{scale}'
+    return (f'<scene version="3.0.0"><default name="spp" value="{SAMPLES}"/>{PATH}{sensor}{fov}<transform name="to_world">{scale}'
             '<lookat origin="2,2.5,4" target="0,0,0" up="0,1,0"/></transform><sampler type="independent">'
             '<integer name="sample_count" value="$spp"/></sampler><film type="hdrfilm">'
             f'<integer name="width" value="{SIZE}"/><integer name="height" value="{SIZE}"/>'
@@ -177,19 +179,8 @@ def compare_bundled(aureole, folder, scene_path):
 
 
 def public_scene(path):
-    """The scene with path, independent samples, a box filter, a small film, and absolute file names."""
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="independent"', text)
-    text = re.sub(r'(<sampler.*?name="(?:sample_count|sampleCount)"\s+value=)"[^"]*"', rf'\1"{SAMPLES}"', text, flags=re.S)
-    text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
-    for side in ("width", "height"):
-        text = re.sub(rf'(name="{side}"\s+value=)"[^"]*"', rf'\1"{SIZE}"', text)
-    text = re.sub(r'<integrator\s+type="[^"]*"', '<integrator type="path"', text)
-    folder = os.path.dirname(os.path.abspath(path))
-    text = re.sub(r'(name="filename"\s+value=)"([^"$]*)"', lambda m: f'{m[1]}"{os.path.join(folder, m[2])}"', text)
-    return re.sub(r'(<integrator type="path">).*?(</integrator>)', r'\1<integer name="max_depth" value="8"/>\2', text,
-                  flags=re.S)
+    """The scene with path, independent samples, a box filter and a small film."""
+    return mitsuba_scene.change(mitsuba_scene.read(path), PATH, "independent", "box", SIZE, SIZE, SAMPLES)
 
 
 def read(path):

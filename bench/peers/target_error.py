@@ -3,6 +3,7 @@
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy scipy
     /tmp/peers/bin/python bench/peers/target_error.py build/release/aureole SCENE.xml[:WIDTHxHEIGHT]... [--errors .05,.02] [--measure relative]
+        [-D NAME=VALUE]...
 
 Mitsuba is llvm_ad_rgb with multi-jittered samples and the scene's filter, on one thread. Its samples grow fourfold from 16 until the
 target is met or the next image would take more than --seconds; beyond, the power law between the last two errors gives the samples, and the line
@@ -10,7 +11,7 @@ between their times the seconds. Its error is half the difference of two images 
 docs/target-error.md, because path tracing has no bias. Of Mitsuba only the render call counts, after a first one that compiles; of Aureole
 all from the loaded scene until it reports that the target is met, that is, its upper confidence bound; Mitsuba has no bound. A ratio above 1
 means that Aureole is faster. `whole` is the ratio with loading, and with Mitsuba's compilation. The last line has the median of the ratios and
-the least."""
+the least. Mitsuba has no plugin for the papers' material `phong_lobe`; the glossy box is scenes/cornell-box/figure.xml with -D materials=rough."""
 import argparse
 import json
 import math
@@ -22,7 +23,9 @@ import subprocess
 import sys
 import tempfile
 
-from time_to_quality import FIRST, MOST_LANES, STEP, cpu_seconds
+from mitsuba_scene import change, cpu_seconds, load, read, split
+
+FIRST, STEP, MOST_LANES = 16, 4, 1 << 24  # samples; a kernel runs at most this number of lanes, each with some hundred bytes of path state
 
 
 def error_of(first, second, measure):
@@ -38,34 +41,23 @@ def error_of(first, second, measure):
     return float(np.sqrt(np.mean((half @ weights / scale) ** 2)))
 
 
-def mitsuba_child(path, width, height, errors, measure, most_seconds):
+def mitsuba_child(path, width, height, definitions, errors, measure, most_seconds):
     """Prints a JSON line: seconds to each error, and the measurements."""
     import drjit as dr
     import mitsuba as mi
     import numpy as np
     mi.set_variant("llvm_ad_rgb")
-    with open(path, encoding="utf-8") as file:
-        text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', file.read())
-    path_traced = '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>'
-    text = re.sub(r"<integrator[^>]*/>|<integrator.*</integrator>", "", text, flags=re.S).replace("</scene>", path_traced + "</scene>")
-    with tempfile.NamedTemporaryFile("w", suffix=".xml", dir=os.path.dirname(os.path.abspath(path))) as copy:
-        copy.write(text)
-        copy.flush()
-        start = cpu_seconds(resource.RUSAGE_SELF)
-        scene = mi.load_file(copy.name, parallel=False)
-        loading = cpu_seconds(resource.RUSAGE_SELF) - start
+    start = cpu_seconds()
+    scene, sensor = load(change(read(path, definitions), sampler="multijitter"), width, height)
+    loading = cpu_seconds() - start
     dr.set_thread_count(1)
-    sensor = scene.sensors()[0]
-    parameters = mi.traverse(sensor)
-    parameters["film.size"] = parameters["film.crop_size"] = [width, height]
-    parameters.update()
     samples, found = FIRST, []
     while True:
         images, seconds = [], []
         for seed in (999, 1, 2):  # the first compiles
-            start = cpu_seconds(resource.RUSAGE_SELF)
+            start = cpu_seconds()
             images.append(np.array(mi.render(scene, sensor=sensor, spp=samples, seed=seed), dtype=np.float64)[:, :, :3])
-            seconds.append(cpu_seconds(resource.RUSAGE_SELF) - start)
+            seconds.append(cpu_seconds() - start)
         compiling = max(seconds[0] - statistics.mean(seconds[1:]), 0) if not found else compiling
         found.append((samples, error_of(images[1], images[2], measure), statistics.mean(seconds[1:])))
         met = found[-1][1] <= min(errors) or STEP * found[-1][2] > most_seconds or samples * STEP * width * height > MOST_LANES
@@ -80,12 +72,13 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
     print(json.dumps({"seconds": seconds, "before": loading + compiling, "found": found, "slope": slope}))
 
 
-def ours(aureole, path, width, height, error, measure, most_seconds):
+def ours(aureole, path, width, height, definitions, error, measure, most_seconds):
     """Seconds of the process, and the program's report; None if the time limit is reached first."""
     with tempfile.TemporaryDirectory() as folder:
         before = cpu_seconds(resource.RUSAGE_CHILDREN)
         run = subprocess.run([aureole, "render", path, "--width", str(width), "--height", str(height), "-t", "1", "--no-cache", "--error", repr(error),
-                              "--error-measure", measure, "--json", "-o", os.path.join(folder, "image.exr"), "--time-limit", str(most_seconds)],
+                              "--error-measure", measure, "--json", "-o", os.path.join(folder, "image.exr"), "--time-limit", str(most_seconds),
+                              *(f"-D{name}={value}" for name, value in definitions.items())],
                              capture_output=True, text=True)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - before
     if run.returncode != 0:
@@ -101,27 +94,25 @@ def main():
     parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=[0.05, 0.02])
     parser.add_argument("--measure", choices=["relative", "mean"], default="relative")
     parser.add_argument("--seconds", type=float, default=30)
-    parser.add_argument("--child", metavar="WIDTHxHEIGHT", help=argparse.SUPPRESS)
+    parser.add_argument("-D", action="append", default=[], metavar="NAME=VALUE", help="a definition of the scenes")
+    parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
+    definitions = dict(text.split("=", 1) for text in given.D)
     if given.child:
-        width, height = map(int, given.child.split("x"))
-        return mitsuba_child(given.scenes[0], width, height, given.errors, given.measure, given.seconds)
+        return mitsuba_child(*split(given.scenes[0])[:3], definitions, given.errors, given.measure, given.seconds)
     ratios = []
     print("| scene | error | Mitsuba | Aureole | ratio | whole | integrator |\n|---|---|---|---|---|---|---|")
     for text in given.scenes:
-        path, _, size = text.partition(".xml:")
-        path, size = (path + ".xml", size) if size else (text, "160x120")
-        width, height = map(int, size.split("x"))
-        name = os.path.join(os.path.basename(os.path.dirname(os.path.abspath(path))), os.path.basename(path))
-        errors = ",".join(map(repr, given.errors))
-        child = subprocess.run([sys.executable, os.path.abspath(__file__), given.aureole, path, "--errors", errors, "--measure", given.measure,
-                                "--seconds", str(given.seconds), "--child", size], capture_output=True, text=True)
+        path, width, height, name = split(text)
+        child = subprocess.run([sys.executable, os.path.abspath(__file__), given.aureole, text, "--errors", ",".join(map(repr, given.errors)),
+                                "--measure", given.measure, "--seconds", str(given.seconds), *(f"-D{item}" for item in given.D), "--child"],
+                               capture_output=True, text=True)
         if child.returncode != 0:
             print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | | |", flush=True)
             continue
         peer = json.loads(re.search(r'{"seconds".*', child.stdout)[0])  # after Mitsuba's warnings
         for error, theirs in zip(given.errors, peer["seconds"]):
-            whole, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
+            whole, report = ours(given.aureole, path, width, height, definitions, error, given.measure, 100 * given.seconds)
             if whole is None:
                 print(f"| {name} | {error:g} | {theirs:.3g} | {report[0]} | | | |", flush=True)
                 continue

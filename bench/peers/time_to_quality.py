@@ -31,6 +31,7 @@ import sys
 import tempfile
 
 import interior
+from mitsuba_scene import change, cpu_seconds, read
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PUBLIC = os.path.join(ROOT, "..", "shared", "scenes", "cornell-box", "scene.xml")
@@ -44,39 +45,6 @@ BUNDLED = {name: (os.path.join(ROOT, "scenes", name, name + ".xml"), 240, 160, {
 ERRORS = (0.02, 0.005)
 # Samples per pixel at which error and time are measured: squares for multi-jittered samples and powers of 2 for Sobol'.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)} | {name: (16, 64) for name in BUNDLED}
-
-# For target_error.py: a kernel runs at most this number of lanes, each with some hundred bytes of path state.
-FIRST, STEP, MOST_LANES = 16, 4, 1 << 24
-
-
-def cpu_seconds(who=resource.RUSAGE_SELF):
-    usage = resource.getrusage(who)
-    return usage.ru_utime + usage.ru_stime
-
-
-def scene_text(path, width, height, definitions):
-    """The scene for both programs: a box filter, path tracing without a depth limit, absolute file names."""
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    folder = os.path.dirname(os.path.abspath(path))
-    included = re.search(r'<include filename="([^"]*)"/>', text)
-    while included:
-        name = included[1]
-        for key, value in definitions.items():
-            name = name.replace("$" + key, value)
-        with open(os.path.join(folder, name), encoding="utf-8") as file:
-            inner = re.search(r"<scene[^>]*>(.*)</scene>", file.read(), re.S)[1]
-        text = text.replace(included[0], inner)
-        included = re.search(r'<include filename="([^"]*)"/>', text)
-    defaults = dict(re.findall(r'<default name="([^"]*)" value="([^"]*)"/>', text)) | definitions
-    for key in sorted(defaults, key=len, reverse=True):
-        text = text.replace("$" + key, defaults[key])
-    text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
-    text = re.sub(r'<integrator.*?</integrator>', '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>',
-                  text, flags=re.S)
-    for side, value in (("width", width), ("height", height)):
-        text = re.sub(rf'(name="{side}"\s+value=)"[^"]*"', rf'\1"{value}"', text)
-    return re.sub(r'(name="filename"\s+value=)"([^"$]*)"', lambda m: f'{m[1]}"{os.path.join(folder, m[2])}"', text)
 
 
 def name_of(path):
@@ -92,7 +60,7 @@ def mitsuba(variant, sampler, path, threads):
     import numpy as np
     mi.set_variant(variant)
     with open(path, encoding="utf-8") as file:
-        scene = mi.load_string(re.sub(r'<sampler\s+type="[^"]*"', f'<sampler type="{sampler}"', file.read()))
+        scene = mi.load_string(change(file.read(), sampler=sampler))
     if variant.startswith("llvm"):
         import drjit as dr  # after loading: its threads read textures, and a single one would deadlock
         dr.set_thread_count(threads)
@@ -344,7 +312,7 @@ def compare_equal_samples(given, folder):
             continue
         copy = os.path.join(folder, "equal-" + name + ".xml")
         with open(copy, "w", encoding="utf-8") as file:
-            file.write(scene_text(path, width, height, definitions))
+            file.write(change(read(path, definitions), rfilter="box", width=width, height=height))
         arguments = [os.path.abspath(given.aureole), "--threads", str(given.threads), "--pairs", str(given.pairs), "--samples",
                      str(given.samples), "--integrator", given.integrator, "--child"]
         rows, reason = run_child([*arguments, "equal samples", copy])
@@ -394,7 +362,7 @@ def main():
         for name, (path, width, height, definitions) in SCENES.items():
             copy = os.path.join(folder, name + ".xml")
             with open(copy, "w", encoding="utf-8") as file:
-                file.write(scene_text(path, width, height, definitions))
+                file.write(change(read(path, definitions), rfilter="box", width=width, height=height))
             for kind in KINDS:
                 if given.only not in f"{name} {kind}":
                     continue
