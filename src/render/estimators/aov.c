@@ -7,6 +7,7 @@
 #include "points/base/names.h"
 #include "points/base/random.h"
 #include "render/film/integrator.h"
+#include "render/trace/packet.h"
 
 enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
 
@@ -130,7 +131,7 @@ typedef struct aov_data {
     const char *list;
     const aur_parameter *item;
 
-    aur_integrator *nested;
+    aur_integrator *nested; /* NULL: none */
     size_t count;
     const aov_type *aovs[CHANNEL_CAPACITY];
     size_t channel_count;
@@ -144,7 +145,8 @@ static const aur_key keys[] = {
                      "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
                      "primitive:prim_index,samples:sample_count,variance:variance",
                      "name:type,...: channels added to the image")},
-    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path", "integrator of the image", "integrator")},
+    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path",
+                     "integrator of the image; none: only directly visible light", "integrator")},
 };
 
 static void release(aur_integrator *integrator) {
@@ -217,6 +219,8 @@ static aur_result create_nested(const aur_parameters *parameters, const aur_para
                                 const aur_integrator_context *context, aov_data *data, aur_error *error) {
     aur_parameters nested;
     aur_result result;
+    if (item != NULL && item->kind != AUR_PARAMETER_OBJECT && strcmp(item->text, "none") == 0)
+        return AUR_OK;
     if (item != NULL && item->kind == AUR_PARAMETER_OBJECT) {
         if (strcmp(item->object_kind, "integrator") != 0)
             return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
@@ -244,11 +248,27 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         result = create_nested(parameters, data->item, context, data, error);
     if (result != AUR_OK)
         return result;
-    integrator->pixel_centre = data->nested->pixel_centre;
+    integrator->pixel_centre = data->nested != NULL && data->nested->pixel_centre;
     integrator->extra_count = data->channel_count;
     integrator->extra_names = data->name_list;
     integrator->extra_kinds = data->kinds;
     return AUR_OK;
+}
+
+static void add_channels(const aov_data *data, const aov_sample *at, aur_tile *tile, size_t x, size_t y,
+                         uint32_t index, const float offset[2]) {
+    float values[3 + CHANNEL_CAPACITY] = {0};
+    put(at->radiance, values);
+    for (size_t i = 0, channel = 3; i < data->count; ++i) {
+        if (at->hit != NULL || data->aovs[i]->evaluate == variance)
+            data->aovs[i]->evaluate(at, &values[channel]);
+        channel += strlen(data->aovs[i]->letters);
+    }
+    aur_tile_add_channels(tile, x, y, index, offset, values);
+}
+
+static uint64_t hash_of(size_t x, size_t y, uint32_t index) {
+    return aur_hash4(UINT64_C(0x7265666c656374), x, y, index);
 }
 
 static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t x, size_t y, uint32_t index) {
@@ -266,23 +286,74 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
                            .hit = found ? &hit : NULL,
                            .surface = &surface,
                            .origin = aur_scene_origin(integrator->scene),
-                           .hash = aur_hash4(UINT64_C(0x7265666c656374), x, y, index)};
-    float values[3 + CHANNEL_CAPACITY] = {0};
-    put(at.radiance, values);
-    for (size_t i = 0, channel = 3; i < data->count; ++i) {
-        if (found || data->aovs[i]->evaluate == variance)
-            data->aovs[i]->evaluate(&at, &values[channel]);
-        channel += strlen(data->aovs[i]->letters);
+                           .hash = hash_of(x, y, index)};
+    add_channels(data, &at, tile, x, y, index, sample.offset);
+}
+
+/* --- without a nested integrator: one packet of rays for a row of a tile */
+
+static aur_vector visible_light(const aur_scene *scene, const aur_ray *ray, const aur_surface *surface) {
+    if (surface == NULL)
+        return aur_scene_background(scene, ray->direction);
+    return surface->emitter != AUR_NO_EMITTER
+               ? aur_surface_emission(scene, surface, aur_vector_scale(ray->direction, -1.0f))
+               : (aur_vector){0};
+}
+
+static void add_lane(const aur_integrator *integrator, const aur_camera_sample *sample, const aur_hit *hit,
+                     aur_tile *tile, size_t x, size_t y) {
+    const aur_scene *const scene = integrator->scene;
+    aur_surface surface;
+    if (hit != NULL)
+        aur_scene_surface(scene, &sample->ray, hit, &surface);
+    const aur_vector light = visible_light(scene, &sample->ray, hit != NULL ? &surface : NULL);
+    const aov_sample at = {.radiance = aur_tile_measured(tile, light),
+                           .ray = &sample->ray,
+                           .hit = hit,
+                           .surface = &surface,
+                           .origin = aur_scene_origin(scene),
+                           .hash = hash_of(x, y, sample->stream.index)};
+    add_channels(integrator->data, &at, tile, x, y, sample->stream.index, sample->offset);
+}
+
+/* The whole row is traced even if a crop needs few of its pixels: rays of a packet may depend on each other
+ * in their last bits. */
+static void add_row(const aur_integrator *integrator, aur_tile *tile, size_t y, uint32_t index,
+                    aur_packet *packet) {
+    const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, width = tile->view->width;
+    const size_t count = x0 + AUR_TILE_SIZE < width ? AUR_TILE_SIZE : width - x0;
+    size_t columns[AUR_TILE_SIZE], rows[AUR_TILE_SIZE];
+    uint32_t indices[AUR_TILE_SIZE];
+    aur_camera_sample samples[AUR_TILE_SIZE];
+    for (size_t k = 0; k < count; ++k) {
+        columns[k] = x0 + k;
+        rows[k] = y;
+        indices[k] = index;
     }
-    aur_tile_add_channels(tile, x, y, index, sample.offset, values);
+    aur_view_samples(tile->view, count, columns, rows, indices, samples);
+    for (size_t k = 0; k < count; ++k)
+        aur_packet_set(packet, k, &samples[k].ray);
+    const uint32_t found = aur_scene_intersect16(integrator->scene, AUR_EMBREE_COHERENT, packet);
+    for (size_t x = tile->x0; x < tile->x1; ++x) {
+        if (!aur_tile_needs(tile, x, y, index))
+            continue;
+        const aur_hit hit = aur_packet_hit(integrator->scene, packet, x - x0);
+        add_lane(integrator, &samples[x - x0], (found >> (x - x0) & 1) != 0 ? &hit : NULL, tile, x, y);
+    }
 }
 
 static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
+    const aov_data *const data = integrator->data;
+    aur_packet packet;
+    aur_packet_clear(&packet);
     for (size_t y = tile->y0; y < tile->y1; ++y)
-        for (size_t x = tile->x0; x < tile->x1; ++x)
+        for (size_t x = tile->x0; x < tile->x1 && data->nested != NULL; ++x)
             for (uint32_t i = 0; i < tile->count; ++i)
                 if (aur_tile_needs(tile, x, y, tile->first + i))
                     add_sample(integrator, tile, x, y, tile->first + i);
+    for (size_t y = tile->y0; y < tile->y1 && data->nested == NULL; ++y)
+        for (uint32_t i = 0; i < tile->count; ++i)
+            add_row(integrator, tile, y, tile->first + i, &packet);
     return AUR_OK;
 }
 

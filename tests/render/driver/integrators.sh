@@ -58,6 +58,28 @@ near "depth beside aov" "$(channel R mean depth.exr)" "$(channel d.T mean aov.ex
 near "radiance in aov" "$(channel R mean aov.exr)" "$(channel R mean direct.exr)" 0
 for threads in 1 3; do "$aureole" render "$sky" -q --spp 4 -t $threads --integrator aov -o aov-$threads.exr || fail "aov"; done
 cmp aov-1.exr aov-3.exr || fail "aov depends on threads"
+# Without a nested integrator: the light and the surfaces that paths of one ray see, in packets of a row, also within a crop.
+for scene in "$sky" "$source/scenes/cornell-box/cornell-box.xml"; do
+  for nested in none path:max_depth=1,lamp_rays=0; do
+    "$aureole" render "$scene" -q --width 40 --spp 3 --filter box --integrator "aov:aovs=(r:reflectance,s:sh_normal),integrator=($nested)" -o "aov-${nested%:*}.exr" || fail "aov of $nested"
+    "$aureole" convert "aov-${nested%:*}.exr" "aov-${nested%:*}.pfm" --channels R,G,B || fail "no radiance of $nested"
+  done
+  cmp aov-none.pfm aov-path.pfm || fail "light without a nested integrator"
+  for channels in r.R,r.G,r.B s.X,s.Y,s.Z; do
+    for nested in none path; do "$aureole" convert "aov-$nested.exr" "aov-$nested.pfm" --channels $channels || fail "no $channels"; done
+    cmp aov-none.pfm aov-path.pfm || fail "$channels without a nested integrator"
+  done
+done
+"$aureole" render "$scene" -q --width 40 --spp 3 --filter box --crop 5,30,7,20 --integrator "aov:aovs=(s:sh_normal),integrator=none" -o crop.exr || fail "aov of a crop"
+"$aureole" convert crop.exr crop.pfm --channels s.X,s.Y,s.Z || fail "no crop"
+python3 - <<'END' || fail "aov of a crop has other bits"
+whole, part = [open(name, "rb").read().split(b"\n", 3)[3] for name in ("aov-none.pfm", "crop.pfm")]
+side, rows, row = 40, range(7, 20), 25 * 12 # PFM files begin with the last row
+assert len(whole) == side * side * 12 and len(part) == len(rows) * row
+for k, y in enumerate(reversed(rows)):
+    start = ((side - 1 - y) * side + 5) * 12
+    assert whole[start:start + row] == part[k * row:(k + 1) * row], y
+END
 
 # A veil of opacity 0.3 before a sky of 1, black itself: samples are 0 or 1, so their unbiased variance is
 # m (1 - m) n / (n - 1) with m the mean. The same scene with the integrator nested in XML.

@@ -75,6 +75,7 @@ static void pixels_are_identical_to_even_images(void **state) {
     } rows[] = {{"path:packets=false", true},
                 {"direct", true},
                 {"aov:aovs=(n:sample_count,d:depth)", true},
+                {"aov:aovs=(n:sample_count,r:reflectance),integrator=none", true},
                 {"ao:samples=8", true},
                 {"finalgather-lab:photons=5000,diffuse_samples=8,split=8,edges=0,packets=false", false},
                 {"finalgather:photons=5000,diffuse_samples=8,split=8,edges=0", false}};

@@ -38,7 +38,7 @@ static size_t feature_samples(aur_adaptive *adaptive, size_t pixels) {
 static aur_result render_features(aur_renderer *renderer, const aur_render_options *options, size_t samples,
                                   aur_image **features, aur_error *error) {
     aur_render_options aov_options = *options;
-    aov_options.integrator = "aov:aovs=(albedo:reflectance,normal:sh_normal),integrator=(path:max_depth=1)";
+    aov_options.integrator = "aov:aovs=(albedo:reflectance,normal:sh_normal),integrator=none";
     aov_options.sampler = "sobol";
     aov_options.samples_per_pixel = samples;
     aov_options.resumable = false;
