@@ -29,22 +29,14 @@ static bool renders_other_quantity(const char *name) {
     return false;
 }
 
-static const char *depth_of(const aur_parameters *parameters) {
-    for (size_t i = 0; i < parameters->count; ++i)
-        if (strcmp(parameters->items[i].name, "max_depth") == 0)
-            return parameters->items[i].text;
-    return NULL;
-}
-
 aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
                                       bool *open, aur_error *error) {
-    const aur_parameters *const scene_integrator = aur_scene_integrator(scene);
     *integrator = NULL;
     *open = false;
-    if (requested == NULL && renders_other_quantity(scene_integrator->plugin))
+    if (requested == NULL && renders_other_quantity(aur_scene_integrator(scene)->plugin))
         return AUR_OK;
     *open = requested == NULL && !aur_scene_has_media(scene);
-    const char *const depth = requested == NULL ? depth_of(scene_integrator) : NULL;
+    const char *const depth = requested == NULL ? aur_scene_max_depth(scene) : NULL;
     *integrator = aur_new_text("%s%s%s",
                                requested != NULL            ? requested
                                : aur_scene_has_media(scene) ? "volpath"

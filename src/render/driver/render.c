@@ -97,6 +97,15 @@ static aur_integrator_context context_of(const aur_render *render) {
                                     .gather = s->gather};
 }
 
+/* Adds a model's limit of path lengths to an integrator that sets none. */
+static aur_result limit_depth(const aur_scene *scene, aur_parameters *parameters, aur_error *error) {
+    const char *const depth = aur_scene_is_model(scene) ? aur_scene_max_depth(scene) : NULL;
+    if (depth == NULL || aur_parameters_find(parameters, "max_depth") != NULL)
+        return AUR_OK;
+    return aur_parameters_add_text(parameters, AUR_PARAMETER_INTEGER, "max_depth", depth,
+                                   parameters->location, error);
+}
+
 /* The integrator that the options or the scene name. */
 static aur_result make_integrator(aur_render *render, aur_error *error) {
     aur_renderer *const renderer = render->renderer;
@@ -108,7 +117,9 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
     if (result != AUR_OK)
         return result;
     const aur_integrator_context context = context_of(render);
-    if (s->clamp != 0.0) {
+    if (s->integrator != NULL)
+        result = limit_depth(renderer->scene, &parameters, error);
+    if (result == AUR_OK && s->clamp != 0.0) {
         char text[40];
         aur_format(text, sizeof text, "%.9g", s->clamp);
         result = aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, "clamp", text, parameters.location,

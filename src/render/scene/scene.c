@@ -327,6 +327,17 @@ const char *aur_scene_sampler(const aur_scene *scene) {
     return scene->sampler;
 }
 
+const char *aur_scene_max_depth(const aur_scene *scene) {
+    for (size_t i = 0; i < scene->integrator.count; ++i)
+        if (strcmp(scene->integrator.items[i].name, "max_depth") == 0)
+            return scene->integrator.items[i].text;
+    return NULL;
+}
+
+bool aur_scene_is_model(const aur_scene *scene) {
+    return scene->document.stage.alone;
+}
+
 const aur_parameters *aur_scene_integrator(const aur_scene *scene) {
     return &scene->integrator;
 }

@@ -478,7 +478,7 @@ for form in obj off ply stl gltf; do
   "$aureole" compare near.exr far.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "far.$form is not near.$form: $(cat compared)"
 done
 
-# In a body that loses no light, paths end after 32 edges unless an integrator is given.
+# In a body that loses no light, paths end after 32 edges unless an integrator or a definition sets another limit.
 printf 'newmtl white\nKd 1 1 1\nKe 1 1 1\n' >white.mtl
 printf 'mtllib white.mtl\nusemtl white\n' >closed.obj
 printf 'v %s\n' '-1 -1 -1' '1 -1 -1' '1 1 -1' '-1 1 -1' '-1 -1 1' '1 -1 1' '1 1 1' '-1 1 1' >>closed.obj
@@ -489,6 +489,10 @@ for depth in "" 32 33; do
 done
 cmp -s closed.exr closed32.exr || fail "paths of models do not end after 32 edges"
 cmp -s closed.exr closed33.exr && fail "no path in a closed body is longer than 32 edges"
+for options in "--integrator path" "--integrator path:max_depth=33 -D max_depth=5" "--integrator path -D max_depth=33"; do
+  "$aureole" render closed.obj $options --environment none --camera 0,0,0,0,0,-1,60 --width 8 --height 8 --samples 4 -q -o named.exr || fail "$options"
+  case $options in *33*) cmp -s named.exr closed33.exr ;; *) cmp -s named.exr closed32.exr ;; esac || fail "another limit with $options"
+done
 
 # The models that are compared with Mitsuba are the scenes that stand for them there.
 for kind in gltf obj; do
