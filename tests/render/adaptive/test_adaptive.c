@@ -1,45 +1,31 @@
 /* Rendering to a target error: stopping criteria, independence of threads, and correct error reports. */
-#include "check.h"
+#include "render/prepared.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-#include <aureole-render/adaptive.h>
-
-typedef struct fixture {
-    aur_scene *scene;
-    aur_renderer *renderer;
-} fixture;
-
 static int set_up(void **state) {
-    static fixture f;
-    assert_int_equal(
-        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f.scene, NULL), AUR_OK);
-    assert_int_equal(aur_renderer_create(f.scene, &f.renderer, NULL), AUR_OK);
-    *state = &f;
+    static prepared box;
+    box = prepare_file(CORNELL_BOX);
+    *state = &box;
     return 0;
 }
 
 static int tear_down(void **state) {
-    const fixture *const f = *state;
-    aur_renderer_destroy(f->renderer);
-    aur_scene_destroy(f->scene);
+    release(*(const prepared *)*state);
     return 0;
 }
 
 static aur_render_options small(size_t threads) {
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = 40;
-    options.height = 24;
+    aur_render_options options = image_of_size(40, 24);
+    options.sampler = NULL;
     options.threads = threads;
-    options.use_cache = 0; /* rays that were traced by an earlier run would not be counted */
     return options;
 }
 
-static aur_adaptive *adaptive(const fixture *f, const aur_render_options *render,
+static aur_adaptive *adaptive(const prepared *f, const aur_render_options *render,
                               const aur_adaptive_options *target) {
     aur_adaptive *created = NULL;
     assert_int_equal(aur_adaptive_create(f->renderer, render, target, &created, NULL), AUR_OK);
@@ -48,7 +34,7 @@ static aur_adaptive *adaptive(const fixture *f, const aur_render_options *render
 }
 
 /* By a renderer that has nothing prepared. */
-static aur_adaptive *create_fresh(fixture *fresh, const fixture *f, const aur_render_options *render,
+static aur_adaptive *create_fresh(prepared *fresh, const prepared *f, const aur_render_options *render,
                                   const aur_adaptive_options *target) {
     fresh->scene = f->scene;
     assert_int_equal(aur_renderer_create(f->scene, &fresh->renderer, NULL), AUR_OK);
@@ -78,10 +64,8 @@ static void assert_same_image(const aur_adaptive *a, const aur_adaptive *b) {
 
 /* The upper end of the interval is below the target, and one thread gives the bits of three. */
 static void test_error(void **state) {
-    const fixture *const f = *state;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.2;
+    const prepared *const f = *state;
+    aur_adaptive_options target = target_of(0.2, AUR_ERROR_MEASURE_RELATIVE);
     aur_render_options one = small(1), three = small(3);
     one.integrator = three.integrator = "path";
     aur_adaptive *const a = adaptive(f, &one, &target), *const b = adaptive(f, &three, &target);
@@ -100,9 +84,8 @@ static void test_error(void **state) {
 /* One round has the same samples whichever measure is asked for, and the same errors by all of them: up to
  * the rounding of what only the one asked for pools. */
 static void test_all_measures(void **state) {
-    const fixture *const f = *state;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
+    const prepared *const f = *state;
+    aur_adaptive_options target = target_of(0.0, AUR_ERROR_MEASURE_RELATIVE);
     target.rounds = 1;
     aur_render_options options = small(1);
     options.integrator = "path";
@@ -124,9 +107,8 @@ static void test_all_measures(void **state) {
 
 /* The reported processor time is the whole process's, except for a few calls. */
 static void test_processor_time(void **state) {
-    const fixture *const f = *state;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
+    const prepared *const f = *state;
+    aur_adaptive_options target = target_of(0.0, AUR_ERROR_MEASURE_RELATIVE);
     target.rounds = 12;
     target.measure = AUR_ERROR_MEASURE_DISPLAY; /* the one that takes longest */
     aur_render_options options = small(1);
@@ -157,11 +139,8 @@ static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
 /* Without a named integrator, final gathering is selected in this box. Its image differs from path tracing's
  * within the two intervals. Naming it with its bias gives the same bits. */
 static void test_choice(void **state) {
-    const fixture *const f = *state;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.02;
-    target.measure = AUR_ERROR_MEASURE_MEAN;
+    const prepared *const f = *state;
+    aur_adaptive_options target = target_of(0.02, AUR_ERROR_MEASURE_MEAN);
     aur_render_options chosen = small(1), named = small(3), paths = small(0);
     chosen.width = named.width = paths.width = 96;
     chosen.height = named.height = paths.height = 72;
@@ -169,7 +148,7 @@ static void test_choice(void **state) {
     chosen.seed = named.seed = 6;
     paths.integrator = "path";
     paths.seed = 7;
-    fixture first, second;
+    prepared first, second;
     aur_adaptive *const a = create_fresh(&first, f, &chosen, &target);
     aur_adaptive_options again = target;
     again.bias = report_of(a).bias_room;
@@ -233,7 +212,7 @@ static int record_progress(void *user, const char *what, uint64_t done, uint64_t
 
 /* Renders, and compares the remaining rays predicted by the rate since the first share with the actual ones,
  * until a fifth of them is left; returns the largest ratio. */
-static double largest_factor(const fixture *f, const char *integrator, uint64_t seed, size_t side,
+static double largest_factor(const prepared *f, const char *integrator, uint64_t seed, size_t side,
                              const aur_adaptive_options *target, progress_record *record) {
     aur_render_options options = small(1);
     options.width = options.height = side;
@@ -241,7 +220,7 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
     options.seed = seed;
     *record = (progress_record){.count = 0};
     options.progress = (aur_progress){record_progress, record};
-    fixture fresh = {.scene = f->scene}; /* a renderer that has no photon maps */
+    prepared fresh = {.scene = f->scene}; /* a renderer that has no photon maps */
     assert_int_equal(aur_renderer_create(f->scene, &fresh.renderer, NULL), AUR_OK);
     aur_adaptive *created = NULL;
     assert_int_equal(aur_adaptive_create(fresh.renderer, &options, target, &created, NULL), AUR_OK);
@@ -267,12 +246,9 @@ static double largest_factor(const fixture *f, const char *integrator, uint64_t 
 
 /* A share is reported only if it is known to a factor of two: no number is better than a wrong one. */
 static void test_progress(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     static progress_record record;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.measure = AUR_ERROR_MEASURE_MEAN;
-    target.error = 0.06;
+    aur_adaptive_options target = target_of(0.06, AUR_ERROR_MEASURE_MEAN);
     for (uint64_t seed = 0; seed < 6; ++seed) {
         assert_true(largest_factor(f, "path", seed, 32, &target, &record) < 2.0);
         assert_true(record.count > 10);
@@ -287,7 +263,7 @@ static void test_progress(void **state) {
 
 /* Rounds that a clock would have stopped are repeated without one. */
 static void test_rounds_and_rays(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     aur_render_options options = small(0);
     options.integrator = "path:max_depth=-1";
     aur_adaptive_options rounds = {.size = sizeof rounds}, seconds = rounds, rays = rounds;
@@ -309,16 +285,14 @@ static void test_rounds_and_rays(void **state) {
 /* For the same rays final gathering is selected and given the size: path tracing then has an error of 3.2 %,
  * final gathering at most 2 % with its bias. */
 static void test_rays_make_the_pattern(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     aur_render_options chosen = small(0), paths = small(0);
     chosen.width = chosen.height = paths.width = paths.height = 96;
     chosen.filter = paths.filter = "box";
     paths.integrator = "path";
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.measure = AUR_ERROR_MEASURE_MEAN;
+    aur_adaptive_options target = target_of(0.0, AUR_ERROR_MEASURE_MEAN);
     target.rays = 8000000;
-    fixture fresh, other;
+    prepared fresh, other;
     aur_adaptive *const a = create_fresh(&fresh, f, &chosen, &target), *const b =
                                                                            adaptive(f, &paths, &target);
     const aur_adaptive_report of_pattern = report_of(a), path = report_of(b);
@@ -358,15 +332,12 @@ static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t to
 
 /* A cancelled render keeps its samples, and resuming it gives the bits of an uninterrupted run. */
 static void test_cancelled_image_is_preserved(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     aur_render_options options = small(1);
     options.integrator = "path";
     size_t calls = 0;
     options.progress = (aur_progress){stop_at_once, &calls};
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.1;
-    target.measure = AUR_ERROR_MEASURE_MEAN;
+    aur_adaptive_options target = target_of(0.1, AUR_ERROR_MEASURE_MEAN);
     aur_adaptive *rendering = NULL;
     aur_error error = {0};
     assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &rendering, NULL), AUR_OK);
@@ -411,7 +382,7 @@ static void assert_same_candidates(const aur_adaptive *a, const aur_adaptive *b,
 
 /* Before its first round a resumed image reports what the saved one did: errors, bias, the race. */
 static void test_resumed_report(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     aur_adaptive *saved = NULL, *resumed = NULL, *stopped = NULL;
     aur_render_options options = small(2);
     options.width = 96;
@@ -419,10 +390,7 @@ static void test_resumed_report(void **state) {
     options.filter = "box";
     options.resumable = true;
     options.progress = (aur_progress){stop_with_bias, &stopped};
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.01;
-    target.measure = AUR_ERROR_MEASURE_MEAN;
+    aur_adaptive_options target = target_of(0.01, AUR_ERROR_MEASURE_MEAN);
     assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &saved, NULL), AUR_OK);
     stopped = saved;
     assert_int_equal(aur_adaptive_run(saved, NULL), AUR_ERROR_CANCELLED);
@@ -450,7 +418,7 @@ static void test_resumed_report(void **state) {
 }
 
 static void test_bad_wishes(void **state) {
-    const fixture *const f = *state;
+    const prepared *const f = *state;
     static const aur_adaptive_options bad[] = {
         {.size = sizeof bad[0], .error = -0.1},
         {.size = sizeof bad[0], .error = 1.5},

@@ -1,10 +1,9 @@
 /* If final gathering is not possible, or cancelled during its creation, the adaptive render continues or ends
  * in order. */
+#include "render/prepared.h"
 #include "render/scene/scene_text.h"
 
 #include "render/adaptive/candidate.h"
-
-#include <aureole-render/adaptive.h>
 
 /* A light source that illuminates only the camera: no photon is stored. */
 static const char single_emitter[] =
@@ -15,31 +14,25 @@ static const char single_emitter[] =
 
 static void paths_go_on_where_no_photon_is_stored(void **state) {
     (void)state;
-    aur_renderer *renderer = NULL;
-    aur_scene *const scene = must_load_body(single_emitter);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = 72;
+    const prepared lit = prepare(must_load_body(single_emitter));
+    aur_render_options options = image_of_size(72, 72);
     options.filter = "box";
     aur_error error = {0};
     options.integrator = "finalgather:photons=1000";
     aur_render *refused = NULL;
-    assert_int_equal(aur_render_create(renderer, &options, &refused, &error), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_render_create(lit.renderer, &options, &refused, &error), AUR_ERROR_UNSUPPORTED);
     options.integrator = NULL;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.001; /* so small that final gathering is tried */
+    /* So small that final gathering is tried. */
+    const aur_adaptive_options target = target_of(0.001, AUR_ERROR_MEASURE_RELATIVE);
     aur_adaptive *adaptive = NULL;
-    assert_int_equal(aur_adaptive_create(renderer, &options, &target, &adaptive, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_create(lit.renderer, &options, &target, &adaptive, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_run(adaptive, &error), AUR_OK);
     assert_int_equal(strncmp(aur_adaptive_integrator(adaptive), "path", 4), 0);
     aur_adaptive_report report = {.size = sizeof report};
     assert_int_equal(aur_adaptive_get_report(adaptive, &report, NULL), AUR_OK);
     assert_true(report.error_high <= target.error);
     aur_adaptive_destroy(adaptive);
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(lit);
 }
 
 /* Calls that are left until it stops. */
@@ -52,23 +45,17 @@ static int count_down(void *user, const char *what, uint64_t done, uint64_t tota
 /* Cancels after each call, until no call is left: what was created is counted, and released. */
 static void a_candidate_is_cancelled_during_creation(void **state) {
     (void)state;
-    aur_scene *scene = NULL;
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    const prepared box = prepare_file(CORNELL_BOX);
     enum { REPLICAS = 4 };
     size_t stopped = 0, calls = 1, left = 0;
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = 16;
-    options.sampler = "sobol";
+    aur_render_options options = image_of_size(16, 16);
     options.progress = (aur_progress){count_down, &left};
     for (aur_result result = AUR_ERROR_CANCELLED; result != AUR_OK; ++calls) {
         aur_candidate candidate = {.integrator = strdup("finalgather:split=1,photons=20000")};
         aur_spent spent = {.budget = 0};
         left = calls;
-        result = aur_candidate_create(renderer, &options, REPLICAS, AUR_ERROR_MEASURE_MEAN, &candidate, NULL);
+        result =
+            aur_candidate_create(box.renderer, &options, REPLICAS, AUR_ERROR_MEASURE_MEAN, &candidate, NULL);
         assert_true(result == AUR_OK || result == AUR_ERROR_CANCELLED);
         stopped += result == AUR_ERROR_CANCELLED;
         assert_true(candidate.replicas.count <= REPLICAS);
@@ -80,8 +67,7 @@ static void a_candidate_is_cancelled_during_creation(void **state) {
     }
     print_message("stopped after each of %zu calls\n", stopped);
     assert_true(stopped >= REPLICAS); /* each replica's map calls at least once */
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(box);
 }
 
 int main(void) {

@@ -1,10 +1,8 @@
 /* Intervals of the error of an image: in a closed furnace, whose radiance is 1 everywhere, the error is
  * known. */
-#include <aureole-render/adaptive.h>
-#include <aureole-render/render.h>
-#include <math.h>
+#include "render/prepared.h"
 
-#include "check.h"
+#include <math.h>
 
 enum { SIDE = 6, RUNS = 600 };
 
@@ -12,15 +10,11 @@ enum { SIDE = 6, RUNS = 600 };
  * every measure. */
 static void errors_of(aur_renderer *renderer, uint64_t seed, aur_adaptive_report *report,
                       double errors[AUR_ERROR_MEASURE_COUNT]) {
-    aur_render_options render = {.size = sizeof render};
-    aur_render_options_init(&render, NULL);
-    render.width = render.height = SIDE;
+    aur_render_options render = image_of_size(SIDE, SIDE);
     render.integrator = "path:rr_depth=1";
     render.threads = 1;
     render.seed = seed;
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.0;
+    aur_adaptive_options target = target_of(0.0, AUR_ERROR_MEASURE_RELATIVE);
     target.rounds = 2;
     target.confidence = 0.5;
     aur_adaptive *adaptive;
@@ -47,17 +41,13 @@ static void errors_of(aur_renderer *renderer, uint64_t seed, aur_adaptive_report
  * mean square is of first order. */
 static void intervals_hold_the_error(void **state) {
     (void)state;
-    aur_scene *scene;
-    aur_renderer *renderer;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/tests/render/driver/furnace.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    const prepared furnace = prepare_file(AUR_SOURCE_DIR "/tests/render/driver/furnace.xml");
     size_t below[AUR_ERROR_MEASURE_COUNT] = {0}, above[AUR_ERROR_MEASURE_COUNT] = {0};
     double squares[AUR_ERROR_MEASURE_COUNT] = {0.0}, estimated[AUR_ERROR_MEASURE_COUNT] = {0.0};
     for (uint64_t seed = 0; seed < RUNS; ++seed) {
         aur_adaptive_report report = {.size = sizeof report};
         double errors[AUR_ERROR_MEASURE_COUNT];
-        errors_of(renderer, seed, &report, errors);
+        errors_of(furnace.renderer, seed, &report, errors);
         assert_true(report.error == report.errors[AUR_ERROR_MEASURE_RELATIVE].error);
         for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
             below[m] += errors[m] < report.errors[m].low;
@@ -75,8 +65,7 @@ static void intervals_hold_the_error(void **state) {
         if (m != AUR_ERROR_MEASURE_DISPLAY)
             assert_relative(estimated[m], squares[m], 0.05);
     }
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(furnace);
 }
 
 int main(void) {

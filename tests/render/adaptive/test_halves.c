@@ -1,38 +1,29 @@
 /* The error of a denoised image, estimated from two halves of the replicas. */
-#include "check.h"
+#include "render/prepared.h"
 
-#include <aureole-render/adaptive.h>
 #include <math.h>
 
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
 typedef struct fixture {
-    aur_scene *scene;
-    aur_renderer *renderer;
+    prepared box;
     aur_adaptive *adaptive;
     aur_image *halves[2], *processed[2];
 } fixture;
 
 static aur_render_options small(void) {
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = SIDE;
+    aur_render_options options = image_of_size(SIDE, SIDE);
     options.integrator = "path";
-    options.sampler = "sobol";
     return options;
 }
 
 /* `value` is that of all pixels of the denoised image; below 0: that of the halves. */
 static aur_error_figures compare(fixture *f, float value, aur_error_measure measure) {
     const aur_render_options options = small();
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
+    aur_adaptive_options target = target_of(0.0, measure);
     target.rounds = 3;
-    target.measure = measure;
-    assert_int_equal(
-        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
-    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
-    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &f->adaptive, NULL), AUR_OK);
+    f->box = prepare_file(CORNELL_BOX);
+    assert_int_equal(aur_adaptive_create(f->box.renderer, &options, &target, &f->adaptive, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_run(f->adaptive, NULL), AUR_OK);
     for (size_t h = 0; h < 2; ++h) {
         assert_int_equal(aur_adaptive_develop_half(f->adaptive, h, &f->halves[h], NULL), AUR_OK);
@@ -52,8 +43,7 @@ static void end(fixture *f) {
         aur_image_destroy(f->processed[h]);
     }
     aur_adaptive_destroy(f->adaptive);
-    aur_renderer_destroy(f->renderer);
-    aur_scene_destroy(f->scene);
+    release(f->box);
 }
 
 static double mean_of(const aur_image *image) {
@@ -95,7 +85,7 @@ static void test_bias_is_found(void **state) {
         options.samples_per_pixel = 1024;
         aur_image *reference, *flat;
         double error;
-        assert_int_equal(aur_renderer_render(f.renderer, &options, &reference, NULL, NULL), AUR_OK);
+        assert_int_equal(aur_renderer_render(f.box.renderer, &options, &reference, NULL, NULL), AUR_OK);
         assert_int_equal(aur_image_create(SIDE, SIDE, 3, &flat, NULL), AUR_OK);
         for (size_t i = 0; i < VALUES; ++i)
             aur_image_data(flat)[i] = 0.2f;

@@ -1,6 +1,6 @@
 /* Emitters smaller than a pixel: their estimated size against the closed form, and renders to a target error
  * that must not end before a sample has hit one. */
-#include "check.h"
+#include "render/prepared.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,6 @@
 #include "render/film/integrator.h"
 #include "render/scene/scene_text.h"
 #include "render/vertex/visible_emitters.h"
-#include <aureole-render/adaptive.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
  * ninth of the pixel that it is in. Behind it a dim square fills the image. */
@@ -100,18 +99,14 @@ static void knows_its_integrator(void **state) {
         {"finalgather:photons=100,split=8", 8, true},
         {"finalgather:photons=100,split=4,edges=0", 4, false},
     };
-    aur_scene *const scene = must_load_body(body);
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    const prepared lit = prepare(must_load_body(body));
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        aur_render_options options = {.size = sizeof options};
-        aur_render_options_init(&options, NULL);
-        options.width = options.height = SIDE;
-        options.sampler = "sobol";
+        aur_render_options options = image_of_size(SIDE, SIDE);
         options.filter = "box";
         aur_candidate candidate = {.integrator = strdup(cases[i].integrator)};
         aur_error error = {0};
-        if (aur_candidate_create(renderer, &options, 2, AUR_ERROR_MEASURE_MEAN, &candidate, &error) != AUR_OK)
+        if (aur_candidate_create(lit.renderer, &options, 2, AUR_ERROR_MEASURE_MEAN, &candidate, &error) !=
+            AUR_OK)
             fail_msg("%s: %s", cases[i].integrator, error.message);
         const aur_integrator *const created = aur_render_integrator(candidate.replicas.renders[0]);
         assert_int_equal(candidate.pattern_samples, cases[i].pattern_samples);
@@ -120,8 +115,7 @@ static void knows_its_integrator(void **state) {
         assert_non_null(candidate.visible.share);
         aur_candidate_release(&candidate);
     }
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(lit);
 }
 
 /* Pixels of a cell get samples together, so what one of them needs for an emitter counts for all: the numbers
@@ -129,19 +123,14 @@ static void knows_its_integrator(void **state) {
 static void knows_the_samples_of_cells(void **state) {
     (void)state;
     enum { REPLICAS = 4, ROUNDS = 4 };
-    aur_scene *const scene = must_load_body(body);
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = SIDE;
-    options.sampler = "sobol";
+    const prepared lit = prepare(must_load_body(body));
+    aur_render_options options = image_of_size(SIDE, SIDE);
     options.filter = "gaussian";
     for (size_t measure = 0; measure < AUR_ERROR_MEASURE_COUNT; ++measure) {
         aur_candidate candidate = {.integrator = strdup("path")};
-        assert_int_equal(
-            aur_candidate_create(renderer, &options, REPLICAS, (aur_error_measure)measure, &candidate, NULL),
-            AUR_OK);
+        assert_int_equal(aur_candidate_create(lit.renderer, &options, REPLICAS, (aur_error_measure)measure,
+                                              &candidate, NULL),
+                         AUR_OK);
         const size_t pixels = candidate.replicas.pixel_count;
         atomic_bool cancelled = false;
         for (size_t round = 0; round < ROUNDS; ++round) {
@@ -153,30 +142,23 @@ static void knows_the_samples_of_cells(void **state) {
         }
         aur_candidate_release(&candidate);
     }
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(lit);
 }
 
 static void meets_emitters(void **state) {
     (void)state;
-    aur_scene *const scene = must_load_body(body);
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = SIDE;
+    const prepared lit = prepare(must_load_body(body));
+    aur_render_options options = image_of_size(SIDE, SIDE);
     options.filter = "box";
     options.integrator = "path";
-    aur_adaptive_options target = {.size = sizeof target};
-    aur_adaptive_options_init(&target, NULL);
-    target.error = 0.3;
+    const aur_adaptive_options target = target_of(0.3, AUR_ERROR_MEASURE_RELATIVE);
     const double emitter = radiance * share_of_emitter();
     for (size_t seed = 0; seed < 8; ++seed) {
         aur_adaptive *adaptive = NULL;
         aur_image *image = NULL;
         aur_adaptive_report report = {.size = sizeof report};
         options.seed = seed;
-        assert_int_equal(aur_adaptive_create(renderer, &options, &target, &adaptive, NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_create(lit.renderer, &options, &target, &adaptive, NULL), AUR_OK);
         assert_int_equal(aur_adaptive_run(adaptive, NULL), AUR_OK);
         assert_int_equal(aur_adaptive_get_report(adaptive, &report, NULL), AUR_OK);
         assert_int_equal(aur_adaptive_develop(adaptive, false, &image, NULL), AUR_OK);
@@ -191,8 +173,7 @@ static void meets_emitters(void **state) {
         aur_image_destroy(image);
         aur_adaptive_destroy(adaptive);
     }
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(lit);
 }
 
 int main(void) {

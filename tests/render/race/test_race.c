@@ -1,6 +1,6 @@
 /* The race for the integrator in synthetic rooms: one where path tracing needs least work, one where final
  * gathering does, and scenes with only one choice. */
-#include "check.h"
+#include "render/prepared.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,27 +42,26 @@ static const char black[] = "<shape type='cube'/></scene>";
 static const char sky[] = "<emitter type='constant'/></scene>";
 
 typedef struct fixture {
-    aur_scene *scene;
-    aur_renderer *renderer;
+    prepared room;
     aur_race race;
 } fixture;
 
+static prepared prepare_room(const char *body) {
+    char text[4096];
+    aur_scene *scene = NULL;
+    snprintf(text, sizeof text, "%s%s", head, body);
+    assert_int_equal(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &scene, NULL), AUR_OK);
+    return prepare(scene);
+}
+
 /* `request`: the target, its time and what pixels may share. */
 static void run_request(const char *body, aur_race request, size_t width, size_t height, fixture *f) {
-    char text[4096];
-    snprintf(text, sizeof text, "%s%s", head, body);
     static atomic_bool cancelled;
     static aur_render_options options;
-    options = (aur_render_options){.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.sampler = "sobol";
+    options = image_of_size(width, height);
     options.filter = "box";
-    options.width = width;
-    options.height = height;
-    options.use_cache = 0;
-    assert_int_equal(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &f->scene, NULL), AUR_OK);
-    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
-    f->race = (aur_race){.renderer = f->renderer,
+    f->room = prepare_room(body);
+    f->race = (aur_race){.renderer = f->room.renderer,
                          .options = &options,
                          .path = "path:max_depth=8",
                          .width = width,
@@ -87,8 +86,7 @@ static void run(const char *body, double error, size_t width, size_t height, fix
 
 static void end(fixture *f) {
     aur_race_release(&f->race);
-    aur_renderer_destroy(f->renderer);
-    aur_scene_destroy(f->scene);
+    release(f->room);
 }
 
 /* For a target that small all candidates are tried; the winner is the same with other seeds, so it is not
@@ -216,16 +214,9 @@ static void test_small_race(void **state) {
 static void test_shared_block(void **state) {
     (void)state;
     enum { WIDTH = 64, HEIGHT = 48, X0 = 7, Y0 = 9, SIDE = 6 };
-    fixture f;
-    char text[4096];
-    snprintf(text, sizeof text, "%s%s", head, indirect);
-    assert_int_equal(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &f.scene, NULL), AUR_OK);
-    assert_int_equal(aur_renderer_create(f.scene, &f.renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
+    const prepared room = prepare_room(indirect);
+    aur_render_options options = image_of_size(WIDTH, HEIGHT);
     options.filter = "box";
-    options.sampler = "sobol";
-    options.use_cache = 0;
     options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     options.integrator = "finalgather:split=1,diffuse_samples=8,photons=5000,edges=0,share=near";
     static uint32_t targets[2][WIDTH * HEIGHT];
@@ -236,7 +227,7 @@ static void test_shared_block(void **state) {
     }
     aur_render *renders[2];
     for (int k = 0; k < 2; ++k) {
-        assert_int_equal(aur_render_create(f.renderer, &options, &renders[k], NULL), AUR_OK);
+        assert_int_equal(aur_render_create(room.renderer, &options, &renders[k], NULL), AUR_OK);
         assert_int_equal(aur_render_step_pixels(renders[k], WIDTH * HEIGHT, targets[k], NULL), AUR_OK);
     }
     const aur_film *const whole = aur_render_film(renders[0]), *const block = aur_render_film(renders[1]);
@@ -250,8 +241,7 @@ static void test_shared_block(void **state) {
     assert_true(aur_film_counted(block).rays * 20 < aur_film_counted(whole).rays);
     aur_render_destroy(renders[0]);
     aur_render_destroy(renders[1]);
-    aur_renderer_destroy(f.renderer);
-    aur_scene_destroy(f.scene);
+    release(room);
 }
 
 int main(void) {

@@ -1,13 +1,12 @@
 /* The bias of an integrator, from replicas with much larger noise: coverage of the interval for synthetic
  * films of known bias. */
-#include "check.h"
+#include "render/prepared.h"
 
 #include <math.h>
 
 #include "points/base/random.h"
 #include "render/film/film.h"
 #include "render/replicas/bias.h"
-#include <aureole-render/render.h>
 
 enum { SIDE = 32, REPLICAS = 4, RUNS = 300 };
 
@@ -76,18 +75,12 @@ static void test_interval(void **state) {
         {0.0, 1.0, false, 64, 0.0}, {0.05, 1.0, false, 54, 0.0}, {0.5, 1.0, false, 54, 0.0},
         {0.1, 0.0, false, 20, 0.0}, {0.0, 1.0, true, 64, 0.0},   {0.05, 1.0, true, 54, 0.0},
         {0.5, 1.0, true, 54, 0.0},  {0.0, 0.1, false, 54, 0.1},  {0.2, 0.1, false, 54, 0.1}};
-    aur_scene *scene;
-    aur_renderer *renderer;
+    const prepared box = prepare_file(CORNELL_BOX);
+    aur_render_options options = image_of_size(SIDE, SIDE);
+    options.filter = "box";
     aur_replicas replicas;
     aur_blocks blocks;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/tests/render/driver/furnace.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.sampler = "sobol";
-    options.width = options.height = SIDE;
-    assert_int_equal(aur_replicas_create(renderer, &options, "path", REPLICAS, &replicas, NULL), AUR_OK);
+    assert_int_equal(aur_replicas_create(box.renderer, &options, "path", REPLICAS, &replicas, NULL), AUR_OK);
     assert_int_equal(aur_blocks_create(SIDE, SIDE, &blocks, NULL), AUR_OK);
     assert_int_equal(blocks.count, 64);
     static aur_error_weight weights[SIDE * SIDE];
@@ -119,8 +112,7 @@ static void test_interval(void **state) {
     }
     aur_blocks_release(&blocks);
     aur_replicas_release(&replicas);
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(box);
 }
 
 /* Widths in squares; nothing is taken from a bias that is certain. */

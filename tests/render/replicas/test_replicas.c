@@ -1,5 +1,5 @@
 /* Statistics of pixels from replicas. */
-#include "check.h"
+#include "render/prepared.h"
 
 #include "render/film/film.h"
 #include "render/replicas/replicas.h"
@@ -7,22 +7,16 @@
 enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
 
 typedef struct fixture {
-    aur_scene *scene;
-    aur_renderer *renderer;
+    prepared box;
     aur_replicas replicas;
     double spreads[PIXELS];
 } fixture;
 
 /* Replicas of the Cornell box, with so many samples per pixel rendered. */
 static void begin(fixture *f, size_t samples) {
-    assert_int_equal(
-        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
-    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = WIDTH;
-    options.height = HEIGHT;
-    assert_int_equal(aur_replicas_create(f->renderer, &options, "path", REPLICAS, &f->replicas, NULL),
+    const aur_render_options options = image_of_size(WIDTH, HEIGHT);
+    f->box = prepare_file(CORNELL_BOX);
+    assert_int_equal(aur_replicas_create(f->box.renderer, &options, "path", REPLICAS, &f->replicas, NULL),
                      AUR_OK);
     for (size_t r = 0; r < REPLICAS; ++r)
         assert_int_equal(aur_render_step(f->replicas.renders[r], samples, NULL), AUR_OK);
@@ -30,8 +24,7 @@ static void begin(fixture *f, size_t samples) {
 
 static void end(fixture *f) {
     aur_replicas_release(&f->replicas);
-    aur_renderer_destroy(f->renderer);
-    aur_scene_destroy(f->scene);
+    release(f->box);
 }
 
 /* The variances that distribute a replica's samples come from the other replicas: an additional sample
@@ -66,20 +59,14 @@ static void test_values_of_the_replica_do_not_count(void **state) {
 static void test_tiles_have_their_means(void **state) {
     (void)state;
     enum { X0 = 10, Y0 = 5, X1 = 50, Y1 = 29, COUNT = (X1 - X0) * (Y1 - Y0), TILE = 16 };
-    aur_scene *scene;
-    aur_renderer *renderer;
+    const prepared box = prepare_file(CORNELL_BOX);
+    aur_render_options options = image_of_size(64, 64);
     aur_replicas replicas;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = {.size = sizeof options};
-    aur_render_options_init(&options, NULL);
-    options.width = options.height = 64;
     options.crop_x0 = X0;
     options.crop_y0 = Y0;
     options.crop_x1 = X1;
     options.crop_y1 = Y1;
-    assert_int_equal(aur_replicas_create(renderer, &options, "path", 3, &replicas, NULL), AUR_OK);
+    assert_int_equal(aur_replicas_create(box.renderer, &options, "path", 3, &replicas, NULL), AUR_OK);
     static double values[3 * COUNT], means[3 * COUNT];
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i)
         means[i] = values[i] = (double)(i * i % 101); /* whole numbers: sums are exact */
@@ -96,8 +83,7 @@ static void test_tiles_have_their_means(void **state) {
         assert_true(means[i] == sum / count);
     }
     aur_replicas_release(&replicas);
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    release(box);
 }
 
 int main(void) {
