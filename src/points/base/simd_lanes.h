@@ -32,6 +32,10 @@ static inline aur_words aur_lanes_count(void) {
     return count;
 }
 
+static inline aur_reals aur_lanes_all(double x) {
+    return (aur_reals){0} + x;
+}
+
 /* a where the mask's bits are set, b elsewhere. */
 static inline aur_reals aur_lanes_choose(aur_words mask, aur_reals a, aur_reals b) {
     return (aur_reals)((mask & (aur_words)a) | (~mask & (aur_words)b));

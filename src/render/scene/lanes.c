@@ -19,49 +19,37 @@ static bool sample_together(const aur_emitter *emitter, uint32_t lanes,
     return true;
 }
 
-/* The lanes whose light is the scene's single environment, which samples them together. */
-static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *choice, const float *u,
-                          const float *v) {
-    if (scene->environment_count != 1 || scene->environments[0]->descriptor->lanes == NULL ||
-        !(scene->choice.emitters.total > 0.0))
-        return 0;
-    if (!aur_light_chooses(scene))
-        return lanes;
-    uint32_t far = 0;
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t k = (size_t)__builtin_ctz(rest);
-        far |= (uint32_t)aur_light_choice_is(scene, scene->environments[0],
-                                             (const float[3]){choice[k], u[k], v[k]})
-               << k;
-    }
-    return far;
-}
-
 /* The choices of sixteen lanes. */
 typedef struct light_choices {
     aur_chosen_light lights[AUR_PACKET_SIZE];
     float rest[AUR_PACKET_SIZE][3];
 } light_choices;
 
-/* Returns the lanes that have a light; the others get none. */
+/* Returns the lanes that have a light. */
 static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
-                              const float *choice, const float *u, const float *v, light_choices *choices,
-                              aur_light_lanes *lights) {
-    const bool chooses = aur_light_chooses(scene);
-    uint32_t lit = 0;
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t k = (size_t)__builtin_ctz(rest);
-        const aur_light_reference reference = reference_of(references, k);
-        float *const numbers = choices->rest[k];
-        numbers[0] = chooses ? choice[k] : 0.5f;
-        numbers[1] = u[k];
-        numbers[2] = v[k];
-        if (aur_light_choose(scene, &reference, numbers, &choices->lights[k]))
-            lit |= 1u << k;
-        else
-            aur_light_lane_set(lights, k, &(aur_light_sample){0});
-    }
-    return lit;
+                              const float *choice, const float *u, const float *v, light_choices *choices) {
+    return aur_light_choose_lanes(scene, lanes, references, choice, u, v, choices->lights, choices->rest);
+}
+
+static void set_unlit(uint32_t lanes, aur_light_lanes *lights) {
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
+        aur_light_lane_set(lights, (size_t)__builtin_ctz(rest), &(aur_light_sample){0});
+}
+
+/* Samples together what lanes chose of the scene's single environment, if it can; returns them. Results of
+ * all other lanes become undefined. */
+static uint32_t sample_far(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                           const light_choices *choices, const float *u, const float *v,
+                           aur_light_lanes *lights) {
+    const aur_emitter *const only = scene->environment_count == 1 ? scene->environments[0] : NULL;
+    uint32_t far = 0;
+    if (only == NULL || only->descriptor->lanes == NULL)
+        return 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
+        far |= (uint32_t)(choices->lights[__builtin_ctz(rest)].emitter == only) << __builtin_ctz(rest);
+    if (far != 0)
+        sample_together(only, far, references, u, v, lights);
+    return far;
 }
 
 static void sample_one(const aur_scene *scene, size_t lane, const aur_light_references *references,
@@ -102,14 +90,13 @@ static uint32_t sample_kind(uint32_t lanes, const aur_light_references *referenc
 
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
-    const uint32_t far = far_lanes(scene, lanes, choice, u, v);
-    if (far != 0)
-        sample_together(scene->environments[0], far, references, u, v, lights);
     light_choices choices;
-    const uint32_t chosen = choose_lights(scene, lanes & ~far, references, choice, u, v, &choices, lights);
-    const uint32_t together = sample_kind(chosen, references, &choices, u, v, lights);
-    for (uint32_t rest = chosen & ~together; rest != 0; rest &= rest - 1)
+    const uint32_t chosen = choose_lights(scene, lanes, references, choice, u, v, &choices);
+    const uint32_t far = sample_far(scene, chosen, references, &choices, u, v, lights);
+    const uint32_t together = sample_kind(chosen & ~far, references, &choices, u, v, lights);
+    for (uint32_t rest = chosen & ~far & ~together; rest != 0; rest &= rest - 1)
         sample_one(scene, (size_t)__builtin_ctz(rest), references, &choices, lights);
+    set_unlit(lanes & ~chosen, lights);
 }
 
 /* --- up to rounding */
@@ -145,7 +132,8 @@ void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_li
         return;
     }
     light_choices choices;
-    uint32_t rest = choose_lights(scene, lanes, references, choice, u, v, &choices, lights);
+    uint32_t rest = choose_lights(scene, lanes, references, choice, u, v, &choices);
+    set_unlit(lanes & ~rest, lights);
     while (rest != 0) {
         const aur_emitter *const first = choices.lights[__builtin_ctz(rest)].emitter;
         uint32_t same = 0;

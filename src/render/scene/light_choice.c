@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/random.h"
 #include "render/scene/scene_data.h"
 
 /* Minimum weight of a light: estimators that use only light sampling stay correct. */
@@ -53,9 +52,26 @@ static aur_result create_tree(aur_scene *scene, aur_error *error) {
     return result;
 }
 
+/* Items without power have no part in a choice. */
+static void list_lit(aur_light_choice *choice) {
+    const double *const sums = choice->emitters.sums;
+    size_t lit = 0;
+    for (size_t i = 0; i < choice->emitters.count; ++i) {
+        if (!(sums[i + 1] > sums[i]))
+            continue;
+        if (lit < AUR_FEW_LIGHTS) {
+            choice->lit[lit] = (uint32_t)i;
+            choice->lit_sums[lit + 1] = sums[i + 1];
+        }
+        ++lit;
+    }
+    choice->lit_count = lit <= AUR_FEW_LIGHTS ? lit : 0;
+}
+
 aur_result aur_light_choice_create(aur_scene *scene, aur_error *error) {
     aur_light_choice *const choice = &scene->choice;
     const size_t count = scene->emitter_count;
+    choice->kernels = &AUR_KERNEL_HERE(aur_light_kernels);
     double *const powers = calloc(count + 1, sizeof *powers);
     for (size_t i = 0; i < count; ++i)
         scene->emitters[i]->first_leaf = AUR_WHOLE_LIGHT;
@@ -70,6 +86,8 @@ aur_result aur_light_choice_create(aur_scene *scene, aur_error *error) {
     for (size_t i = 0; i < items && result == AUR_OK && choice->emitters.total > 0.0; ++i)
         *(i < count ? &scene->emitters[i]->probability : &choice->tree_probability) =
             (float)aur_distribution_probability(&choice->emitters, i);
+    if (result == AUR_OK)
+        list_lit(choice);
     free(powers);
     return result;
 }
@@ -81,11 +99,10 @@ void aur_light_choice_release(aur_light_choice *choice) {
     choice->parts = NULL;
 }
 
-/* Appends bits, derived from u alone, below the 24 bits of u[0]: a tree may have more lights than 2^24. */
 static double with_more_digits(const float u[3]) {
     uint32_t bits[2];
     memcpy(bits, &u[1], sizeof bits);
-    return (double)u[0] + 0x1p-24 * aur_unit_double(aur_hash2(bits[0], bits[1]));
+    return aur_light_digits(u[0], bits[0], bits[1]);
 }
 
 /* The emitter; the number of emitters stands for the tree. *rest is the remainder of u[0]. */
@@ -96,27 +113,122 @@ static size_t choose_emitter(const aur_scene *scene, const float u[3], double *r
     return aur_distribution_choose_double(&choice->emitters, rest);
 }
 
+/* Sets what is known of an item; false: it is the tree. */
+static bool choose_item(const aur_scene *scene, size_t index, aur_chosen_light *chosen) {
+    *chosen = (aur_chosen_light){.part = AUR_WHOLE_LIGHT};
+    if (index == scene->emitter_count)
+        return false;
+    chosen->emitter = scene->emitters[index];
+    chosen->probability = scene->emitters[index]->probability;
+    return true;
+}
+
+static void choose_leaf(const aur_scene *scene, uint32_t leaf, float probability, aur_chosen_light *chosen) {
+    const aur_light_part part = scene->choice.parts[leaf];
+    *chosen = (aur_chosen_light){scene->emitters[part.emitter], part.part,
+                                 probability * scene->choice.tree_probability};
+}
+
+static float single(double rest) {
+    return aur_smaller((float)rest, 0x1.fffffep-1f);
+}
+
 bool aur_light_choose(const aur_scene *scene, const aur_light_reference *reference, float u[3],
                       aur_chosen_light *chosen) {
     const aur_light_choice *const choice = &scene->choice;
     double rest;
     if (!(choice->emitters.total > 0.0))
         return false;
-    size_t index = choose_emitter(scene, u, &rest);
-    *chosen = (aur_chosen_light){.part = AUR_WHOLE_LIGHT};
-    if (index == scene->emitter_count) {
+    if (!choose_item(scene, choose_emitter(scene, u, &rest), chosen)) {
         uint32_t leaf;
-        if (!aur_light_tree_choose(&choice->tree, reference, &rest, &leaf, &chosen->probability))
+        float probability;
+        if (!aur_light_tree_choose(&choice->tree, reference, &rest, &leaf, &probability))
             return false;
-        index = choice->parts[leaf].emitter;
-        chosen->part = choice->parts[leaf].part;
-        chosen->probability *= choice->tree_probability;
-    } else {
-        chosen->probability = scene->emitters[index]->probability;
+        choose_leaf(scene, leaf, probability, chosen);
     }
-    chosen->emitter = scene->emitters[index];
-    u[0] = aur_smaller((float)rest, 0x1.fffffep-1f);
+    u[0] = single(rest);
     return true;
+}
+
+/* --- by lanes */
+
+static aur_light_reference reference_of(const aur_light_references *references, size_t lane) {
+    return (aur_light_reference){aur_lane_vector(references->position, lane),
+                                 aur_lane_vector(references->normal, lane)};
+}
+
+enum { FEW_LANES = 4 }; /* fewer choose one by one */
+
+/* A leaf for each lane that chose the tree; returns those that have one. At the root, which all visit, the
+ * lanes choose together if they are not few for its children. */
+static uint32_t choose_leaves(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                              aur_light_draws *draws, aur_chosen_light *chosen) {
+    const aur_light_tree *const tree = &scene->choice.tree;
+    const aur_light_node *const root = tree->nodes;
+    const bool together = lanes != 0 && 2 * (uint32_t)__builtin_popcount(lanes) >= root->count;
+    uint32_t found = 0;
+    if (together)
+        tree->kernels->choose(&tree->children, root->first, root->count, references, draws);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_light_reference reference = reference_of(references, k);
+        double product = together ? draws->probability[k] : 1.0;
+        const uint32_t target = together ? tree->targets[root->first + (size_t)draws->index[k]] : 0;
+        uint32_t leaf;
+        if (!(product > 0.0) ||
+            !aur_light_tree_descend(tree, &reference, target, &draws->rest[k], &leaf, &product))
+            continue;
+        choose_leaf(scene, leaf, (float)product, &chosen[k]);
+        found |= 1u << k;
+    }
+    return found;
+}
+
+/* For few items. */
+static uint32_t choose_together(const aur_scene *scene, uint32_t lanes,
+                                const aur_light_references *references, const float *number, const float *u,
+                                const float *v, aur_chosen_light *chosen, float numbers[AUR_PACKET_SIZE][3]) {
+    const aur_light_choice *const choice = &scene->choice;
+    aur_light_draws draws;
+    uint32_t found = 0;
+    if (choice->tree.node_count > 0)
+        choice->kernels->digits(number, u, v, draws.rest);
+    else
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            draws.rest[k] = (double)number[k];
+    choice->kernels->items(choice->lit_count, choice->lit_sums, &draws);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        found |= (uint32_t)choose_item(scene, choice->lit[(size_t)draws.index[k]], &chosen[k]) << k;
+        numbers[k][0] = single(draws.rest[k]);
+    }
+    const uint32_t leaves = choose_leaves(scene, lanes & ~found, references, &draws, chosen);
+    for (uint32_t rest = leaves; rest != 0; rest &= rest - 1)
+        numbers[__builtin_ctz(rest)][0] = single(draws.rest[__builtin_ctz(rest)]);
+    return found | leaves;
+}
+
+uint32_t aur_light_choose_lanes(const aur_scene *scene, uint32_t lanes,
+                                const aur_light_references *references, const float *choice, const float *u,
+                                const float *v, aur_chosen_light chosen[AUR_PACKET_SIZE],
+                                float numbers[AUR_PACKET_SIZE][3]) {
+    const bool chooses = aur_light_chooses(scene);
+    const bool few = __builtin_popcount(lanes) < FEW_LANES;
+    uint32_t found = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        numbers[k][0] = chooses ? choice[k] : 0.5f;
+        numbers[k][1] = u[k];
+        numbers[k][2] = v[k];
+    }
+    if (chooses && !few && scene->choice.emitters.count > 1 && scene->choice.lit_count > 0)
+        return choose_together(scene, lanes, references, choice, u, v, chosen, numbers);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_light_reference reference = reference_of(references, k);
+        found |= (uint32_t)aur_light_choose(scene, &reference, numbers[k], &chosen[k]) << k;
+    }
+    return found;
 }
 
 float aur_light_choice_probability(const aur_scene *scene, const aur_light_reference *reference,
@@ -128,9 +240,4 @@ float aur_light_choice_probability(const aur_scene *scene, const aur_light_refer
     const uint32_t part = emitter->part_count > 1 ? surface->primitive : 0;
     return choice->tree_probability *
            aur_light_tree_probability(&choice->tree, reference, emitter->first_leaf + part);
-}
-
-bool aur_light_choice_is(const aur_scene *scene, const aur_emitter *emitter, const float u[3]) {
-    double rest;
-    return choose_emitter(scene, u, &rest) == emitter->index;
 }

@@ -362,22 +362,28 @@ static size_t choose_child(const aur_lane_numbers importance, size_t count, doub
     return chosen;
 }
 
-bool aur_light_tree_choose(const aur_light_tree *tree, const aur_light_reference *reference, double *u,
-                           uint32_t *light, float *probability) {
-    double product = 1.0;
-    for (uint32_t child = 0; (child & AUR_LIGHT_LEAF) == 0;) {
-        const aur_light_node *const node = &tree->nodes[child];
+bool aur_light_tree_descend(const aur_light_tree *tree, const aur_light_reference *reference, uint32_t target,
+                            double *u, uint32_t *light, double *product) {
+    while ((target & AUR_LIGHT_LEAF) == 0) {
+        const aur_light_node *const node = &tree->nodes[target];
         aur_lane_numbers importance;
         const double total = importances(tree, node, reference, importance);
         if (!(total > 0.0))
             return false;
         const size_t k = choose_child(importance, node->count, total, u);
-        product *= (double)importance[k] / total;
-        child = tree->targets[node->first + k];
-        *light = child & ~AUR_LIGHT_LEAF;
+        *product *= (double)importance[k] / total;
+        target = tree->targets[node->first + k];
     }
+    *light = target & ~AUR_LIGHT_LEAF;
+    return *product > 0.0;
+}
+
+bool aur_light_tree_choose(const aur_light_tree *tree, const aur_light_reference *reference, double *u,
+                           uint32_t *light, float *probability) {
+    double product = 1.0;
+    const bool found = aur_light_tree_descend(tree, reference, 0, u, light, &product);
     *probability = (float)product;
-    return product > 0.0;
+    return found;
 }
 
 float aur_light_tree_probability(const aur_light_tree *tree, const aur_light_reference *reference,

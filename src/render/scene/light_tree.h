@@ -4,6 +4,7 @@
  * bounds are loose than in a binary tree. */
 #pragma once
 
+#include "points/base/random.h"
 #include "points/base/simd.h"
 #include "render/scene/lanes.h"
 
@@ -42,11 +43,31 @@ typedef struct aur_light_leaf {
     uint32_t node, slot; /* AUR_LIGHT_LEAF: none, it is never sampled */
 } aur_light_leaf;
 
+/* What sixteen lanes choose. */
+typedef struct aur_light_draws {
+    _Alignas(64) double rest[AUR_PACKET_SIZE]; /* numbers in [0,1); after a choice their remainders */
+    double index[AUR_PACKET_SIZE];             /* chosen */
+    double probability[AUR_PACKET_SIZE];       /* of the child; 0: none is possible */
+} aur_light_draws;
+
+/* Appends bits, derived from u and v alone, below the 24 bits of `choice`: a tree may have more lights than
+ * 2^24. */
+static inline double aur_light_digits(float choice, uint32_t u, uint32_t v) {
+    return (double)choice + 0x1p-24 * aur_unit_double(aur_hash2(u, v));
+}
+
 typedef struct aur_light_kernels {
     /* The approximate relative contribution of sixteen children from `first` on to the reference; 0 only if
      * there is surely none. */
     void (*importance)(const aur_light_children *children, uint32_t first,
                        const aur_light_reference *reference, float *importance);
+    /* Of `count` children, one for each lane by draws->rest, as aur_light_tree_choose does. */
+    void (*choose)(const aur_light_children *children, uint32_t first, uint32_t count,
+                   const aur_light_references *references, aur_light_draws *draws);
+    /* Items of a distribution by draws->rest, as aur_distribution_choose_double does; all have weight. */
+    void (*items)(size_t count, const double *sums, aur_light_draws *draws);
+    /* aur_light_digits of all lanes. */
+    void (*digits)(const float *choice, const float *u, const float *v, double *digits);
 } aur_light_kernels;
 
 AUR_KERNELS(const aur_light_kernels, aur_light_kernels);
@@ -71,6 +92,11 @@ void aur_light_tree_release(aur_light_tree *tree);
  * light can reach the reference. */
 bool aur_light_tree_choose(const aur_light_tree *tree, const aur_light_reference *reference, double *u,
                            uint32_t *light, float *probability);
+/* The same from a target on, which is chosen already: *product times the probabilities of the further
+ * choices.
+ */
+bool aur_light_tree_descend(const aur_light_tree *tree, const aur_light_reference *reference, uint32_t target,
+                            double *u, uint32_t *light, double *product);
 /* The probability of a light. */
 float aur_light_tree_probability(const aur_light_tree *tree, const aur_light_reference *reference,
                                  uint32_t light);

@@ -44,12 +44,19 @@ typedef struct aur_light_part {
     uint32_t emitter, part;
 } aur_light_part;
 
+enum { AUR_FEW_LIGHTS = 16 };
+
 /* Selection of lights for aur_light_sample_direct (light_choice.c). */
 typedef struct aur_light_choice {
     aur_distribution emitters; /* by power; 0 for lights in the tree, which is the last item */
     aur_light_tree tree;       /* lights with bounds; node_count 0: at most one such light */
     aur_light_part *parts;     /* of the tree's lights */
     float tree_probability;
+    /* The items of `emitters` that have power and their sums, for choices by lanes; lit_count 0: many. */
+    size_t lit_count;
+    uint32_t lit[AUR_FEW_LIGHTS];
+    double lit_sums[AUR_FEW_LIGHTS + 1];
+    const aur_light_kernels *kernels;
 } aur_light_choice;
 
 /* A selected light. */
@@ -132,15 +139,19 @@ void aur_light_choice_release(aur_light_choice *choice);
 /* The light selected by u[0], which becomes the remainder. False: none reaches the reference. */
 bool aur_light_choose(const aur_scene *scene, const aur_light_reference *reference, float u[3],
                       aur_chosen_light *chosen);
+/* The same for lanes, whose light and numbers it sets: the remainder, u and v. Returns the lanes that have a
+ * light. `choice` is read only if aur_light_chooses. */
+uint32_t aur_light_choose_lanes(const aur_scene *scene, uint32_t lanes,
+                                const aur_light_references *references, const float *choice, const float *u,
+                                const float *v, aur_chosen_light chosen[AUR_PACKET_SIZE],
+                                float numbers[AUR_PACKET_SIZE][3]);
 /* The probability of selecting the light of a surface, at a reference. */
 float aur_light_choice_probability(const aur_scene *scene, const aur_light_reference *reference,
                                    const aur_surface *surface);
-/* Whether u selects a light outside of the tree, for any reference. */
 /* Samples the chosen light by the numbers that aur_light_choose left in u. */
 bool aur_light_sample_chosen(const aur_scene *scene, const aur_chosen_light *chosen,
                              const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample);
-bool aur_light_choice_is(const aur_scene *scene, const aur_emitter *emitter, const float u[3]);
 
 /* Passes the shapes to Embree (render/trace/accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);

@@ -385,6 +385,66 @@ static void lanes_are_single_samples(void **state) {
     aur_isa_reset();
 }
 
+/* Few and all lanes of a packet choose what each does alone, with the same remainders: without a tree, with
+ * one of one level and of two; beside lights without power, and numbers that rounding may lead beyond. */
+static void lanes_choose_as_each_alone(void **state) {
+    static const size_t counts[] = {0, 3, 16, 40};
+    static const char directional[] =
+        "<emitter type='directional'><rgb name='irradiance' value='%d'/></emitter>";
+    setenv("AUREOLE_ISA", *state, 1);
+    aur_isa_reset();
+    for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c) {
+        char body[8192];
+        size_t length = 0;
+        for (int i = 0; i < 6; ++i)
+            length += (size_t)snprintf(body + length, sizeof body - length, directional, i % 3);
+        for (size_t i = 0; i < counts[c]; ++i)
+            length += (size_t)snprintf(
+                body + length, sizeof body - length,
+                "<emitter type='point'><point name='position' x='%g' y='%g' z='2'/></emitter>",
+                4.0 * (double)unit(i, 1) - 2.0, 4.0 * (double)unit(i, 2) - 2.0);
+        snprintf(body + length, sizeof body - length, directional, 0);
+        aur_scene *const scene = must_load_body(body);
+        size_t found = 0;
+        for (size_t round = 0; round < 400; ++round) {
+            aur_lane_vectors positions, normals;
+            aur_lane_numbers choice, u, v;
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+                const size_t i = AUR_PACKET_SIZE * round + k;
+                aur_lane_set(&positions, k, unit_point(i, 2.0f));
+                aur_lane_set(&normals, k,
+                             k % 3 == 0 ? (aur_vector){0} : aur_sample_sphere(unit(i, 4), unit(i, 5)));
+                choice[k] = i % 9 == 0 ? 0x1.fffffep-1f : unit(i, 6);
+                u[k] = unit(i, 7);
+                v[k] = unit(i, 8);
+            }
+            const aur_light_references references = {&positions, &normals};
+            const uint32_t lanes = round % 2 == 0 ? UINT16_MAX : 0x8404;
+            aur_chosen_light chosen[AUR_PACKET_SIZE];
+            float numbers[AUR_PACKET_SIZE][3];
+            const uint32_t lit =
+                aur_light_choose_lanes(scene, lanes, &references, choice, u, v, chosen, numbers);
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+                const aur_light_reference at = {aur_lane_vector(&positions, k), aur_lane_vector(&normals, k)};
+                float rest[3] = {choice[k], u[k], v[k]};
+                aur_chosen_light one;
+                const bool is_lit = (lanes >> k & 1u) != 0 && aur_light_choose(scene, &at, rest, &one);
+                assert_int_equal(lit >> k & 1u, is_lit);
+                if (!is_lit)
+                    continue;
+                assert_true(chosen[k].emitter == one.emitter && chosen[k].part == one.part &&
+                            chosen[k].probability == one.probability);
+                assert_memory_equal(numbers[k], rest, sizeof rest);
+                found += one.emitter->first_leaf != AUR_WHOLE_LIGHT;
+            }
+        }
+        assert_true(counts[c] == 0 || found > 300);
+        aur_scene_destroy(scene);
+    }
+    unsetenv("AUREOLE_ISA");
+    aur_isa_reset();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probabilities_are_those_of_choosing),
@@ -392,6 +452,9 @@ int main(void) {
         cmocka_unit_test(same_light_as_each_alone),
         cmocka_unit_test(weights_count),
         cmocka_unit_test(one_light_needs_no_tree),
+        cmocka_unit_test_prestate(lanes_choose_as_each_alone, "portable"),
+        cmocka_unit_test_prestate(lanes_choose_as_each_alone, "avx2"),
+        cmocka_unit_test_prestate(lanes_choose_as_each_alone, "avx512"),
         cmocka_unit_test_prestate(lanes_are_single_samples, "portable"),
         cmocka_unit_test_prestate(lanes_are_single_samples, "avx2"),
         cmocka_unit_test_prestate(lanes_are_single_samples, "avx512"),
