@@ -329,16 +329,12 @@ static void measure(aur_candidate *candidate, double confidence) {
     candidate->intervals[m] = interval_of(candidate, &candidate->measure, confidence);
 }
 
-void aur_candidate_measure_others(aur_candidate *candidate, double confidence) {
-    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
-        const size_t m = (candidate->error_measure + k) % AUR_ERROR_MEASURE_COUNT;
-        aur_replica_measure other;
-        aur_candidate_weigh(candidate, (aur_error_measure)m);
-        aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
-                             (aur_weighing){(aur_error_measure)m, candidate->weights}, &other, NULL);
-        candidate->intervals[m] = interval_of(candidate, &other, confidence);
-    }
-    aur_candidate_weigh(candidate, candidate->error_measure);
+void aur_candidate_measure_by(aur_candidate *candidate, aur_error_measure m, double confidence) {
+    aur_replica_measure other;
+    aur_candidate_weigh(candidate, m);
+    aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
+                         (aur_weighing){m, candidate->weights}, &other, NULL);
+    candidate->intervals[m] = interval_of(candidate, &other, confidence);
 }
 
 /* Converts variances of single samples to those of the replicas' values, averaged over units that get samples

@@ -58,8 +58,8 @@ void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
 /* Computes `values` and `weights` from the films, as each round does. */
 void aur_candidate_measure(aur_candidate *candidate);
-/* The intervals by the other measures, which no round depends on. */
-void aur_candidate_measure_others(aur_candidate *candidate, double confidence);
+/* Sets the weights and the interval by a measure that no round depends on. */
+void aur_candidate_measure_by(aur_candidate *candidate, aur_error_measure measure, double confidence);
 /* Sets `weights` to those of a measure, from the values of the last round. */
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 

@@ -181,25 +181,19 @@ static void bound_bias_by(aur_adaptive *adaptive, aur_error_measure measure) {
         adaptive->target.confidence);
 }
 
-/* By the measures that no round depends on. */
-static void bound_others(aur_adaptive *adaptive) {
-    const aur_error_measure asked = adaptive->target.measure;
-    if (adaptive->corrections.steps == 0 || aur_candidate_is_black(&adaptive->candidate))
-        return;
-    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
-        const aur_error_measure m = (aur_error_measure)((asked + k) % AUR_ERROR_MEASURE_COUNT);
-        aur_candidate_weigh(&adaptive->candidate, m);
-        bound_bias_by(adaptive, m);
-    }
-    aur_candidate_weigh(&adaptive->candidate, asked);
-}
-
 void aur_adaptive_measure_others(aur_adaptive *adaptive) {
-    const uint64_t rounds = adaptive->candidate.rounds, steps = adaptive->corrections.steps;
+    aur_candidate *const candidate = &adaptive->candidate;
+    const aur_error_measure target = adaptive->target.measure;
+    const uint64_t rounds = candidate->rounds, steps = adaptive->corrections.steps;
     if (adaptive->others_rounds == rounds && adaptive->others_steps == steps)
         return;
-    aur_candidate_measure_others(&adaptive->candidate, adaptive->target.confidence);
-    bound_others(adaptive);
+    for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
+        const aur_error_measure m = (aur_error_measure)((target + k) % AUR_ERROR_MEASURE_COUNT);
+        aur_candidate_measure_by(candidate, m, adaptive->target.confidence);
+        if (steps > 0 && !aur_candidate_is_black(candidate))
+            bound_bias_by(adaptive, m);
+    }
+    aur_candidate_weigh(candidate, target);
     adaptive->others_rounds = rounds;
     adaptive->others_steps = steps;
 }
