@@ -10,6 +10,9 @@
 #include "render/film/film.h"
 #include "render/film/integrator.h"
 
+/* An image is black if none of so many samples has met light: fewer miss small lamps behind glass. */
+static const double DARK_SAMPLES = 65536.0;
+
 /* Lamps that the camera sees, as the integrator shows them. */
 static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene, uint64_t seed,
                                 aur_error *error) {
@@ -154,8 +157,23 @@ static void round_to_patterns(aur_candidate *candidate) {
             candidate->targets[i] = whole_patterns(candidate, i, more);
 }
 
+/* All pixels get as many samples as one round may give: no variance says where light is. */
+static bool raise_all(aur_candidate *candidate) {
+    bool raised = false;
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        candidate->targets[i] =
+            (uint32_t)fmin((double)AUR_MOST_GROWTH * candidate->earlier[i], AUR_SAMPLES_PER_PIXEL_MAX);
+        raised = raised || candidate->targets[i] > candidate->earlier[i];
+    }
+    return raised;
+}
+
+bool aur_candidate_is_dark(const aur_candidate *candidate) {
+    return candidate->rounds > 0 && !(candidate->measure.mean > 0.0);
+}
+
 bool aur_candidate_is_black(const aur_candidate *candidate) {
-    return candidate->rounds > 0 && !(candidate->bound > 0.0) && !(candidate->measure.mean > 0.0);
+    return aur_candidate_is_dark(candidate) && !(candidate->bound > 0.0);
 }
 
 /* A bound of the part of a value's variance due to emitters that replicas may not have hit yet. */
@@ -189,6 +207,8 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
     if (candidate->begun)
         for (size_t i = 0; i < candidate->value_count; ++i)
             candidate->targets[i] = (uint32_t)candidate->pattern_samples;
+    else if (aur_candidate_is_dark(candidate) && candidate->bound > 0.0)
+        candidate->begun = raise_all(candidate);
     else {
         candidate->begun =
             aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
@@ -288,7 +308,10 @@ static void pool_variances(aur_candidate *candidate) {
         aur_replicas_average(&candidate->replicas, cell, candidate->variances);
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
-        candidate->bound = visible > 0.0 ? INFINITY : 0.0;
+        candidate->bound =
+            visible > 0.0 || candidate->finished * (double)candidate->replicas.pixel_count < DARK_SAMPLES
+                ? INFINITY
+                : 0.0;
     else if (measured > 0.0)
         candidate->bound =
             candidate->intervals[candidate->error_measure].high * sqrt(fmax(pooled / measured, 1.0));

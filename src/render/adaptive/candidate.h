@@ -85,7 +85,9 @@ double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal
 /* The round planned last leads to the error of the goal, and is seldom followed by another. */
 bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal);
 
-/* No sample has hit light, and no visible emitter is known. */
+/* No sample has met light. */
+bool aur_candidate_is_dark(const aur_candidate *candidate);
+/* ... and further ones are not expected to: many were taken, and no visible emitter is known. */
 bool aur_candidate_is_black(const aur_candidate *candidate);
 
 /* Plans the samples of a round; the first is one pattern per pixel. If more than one round is needed for the

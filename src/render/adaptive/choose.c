@@ -190,7 +190,7 @@ void aur_adaptive_measure_others(aur_adaptive *adaptive) {
     for (size_t k = 1; k < AUR_ERROR_MEASURE_COUNT; ++k) {
         const aur_error_measure m = (aur_error_measure)((target + k) % AUR_ERROR_MEASURE_COUNT);
         aur_candidate_measure_by(candidate, m, adaptive->target.confidence);
-        if (steps > 0 && !aur_candidate_is_black(candidate))
+        if (steps > 0 && !aur_candidate_is_dark(candidate))
             bound_bias_by(adaptive, m);
     }
     aur_candidate_weigh(candidate, target);
@@ -294,7 +294,7 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
     aur_result result = AUR_OK;
     *again = false;
     adaptive->unchecked = true;
-    if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_black(&adaptive->candidate)) {
+    if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_dark(&adaptive->candidate)) {
         adaptive->unchecked = false;
         return AUR_OK;
     }

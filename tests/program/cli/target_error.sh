@@ -65,7 +65,7 @@ grep -q -- "--integrator 'finalgather.* --error .* --error-measure mean --bias "
 printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \
   '<integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="sphere"/></scene>' > dark.xml
 "$aureole" render dark.xml --error 1% -o dark.exr 2> said
-grep -q 'no light of the scene reaches the camera (--camera, --environment)' said || fail "a dark scene: $(cat said)"
+grep -q 'samples per pixel met light (--camera, --environment)' said || fail "a dark scene: $(cat said)"
 grep -q clip said && fail "a dark scene that nothing clips: $(cat said)"
 
 # So does one whose surfaces lie beyond far_clip, or before near_clip, and why.

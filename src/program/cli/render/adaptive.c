@@ -107,8 +107,8 @@ static void print_result(aur_adaptive *adaptive, const cli_target *target, const
     if (!(report.mean > 0.0)) {
         aur_print(
             stderr,
-            "aureole: %s is black: no light of the scene reaches the camera (--camera, --environment)\n",
-            output);
+            "aureole: %s is black: none of %.4g samples per pixel met light (--camera, --environment)\n",
+            output, report.samples_per_pixel);
         return;
     }
     print_command(adaptive, target, &report);

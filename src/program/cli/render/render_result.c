@@ -166,9 +166,7 @@ void cli_report_image(const char *output, const aur_image *image, const cli_rend
     if (strcmp(output, "-") == 0)
         output = "the image";
     if (is_black(image))
-        aur_print(stderr,
-                  "aureole: warning: %s is black: no light of the scene reaches the camera (--camera, "
-                  "--environment)\n",
+        aur_print(stderr, "aureole: warning: %s is black: no sample met light (--camera, --environment)\n",
                   output);
     else if (end->error > 0.0)
         aur_print(
