@@ -21,7 +21,7 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
                         "the target error must be at least 1e-6, what 32-bit images resolve, not %g",
                         target->error);
     if (!(target->seconds >= 0.0 && target->seconds < INFINITY))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the time must be above 0 seconds, not %g",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the time must be above 0 seconds and finite, not %g",
                         target->seconds);
     if (!(target->bias >= 0.0 && target->bias < (target->error > 0.0 ? target->error : INFINITY)))
         return aur_fail(error, AUR_ERROR_ARGUMENT,

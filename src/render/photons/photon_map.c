@@ -109,7 +109,8 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
         if (ends)
             return aur_fail(
                 error, AUR_ERROR_UNSUPPORTED,
-                "photon map: %zu photons stored after %llu particles: the lights do not reach the surfaces",
+                "photon map: %zu photons stored after %llu particles: the lights have no power or "
+                "do not reach the surfaces",
                 map->count, (unsigned long long)map->paths);
         work->first_path = map->paths;
         aur_result result = aur_parallel_for(&parallel, CHUNKS_A_BATCH, trace_chunk, work, error);

@@ -133,7 +133,9 @@ static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings
         scene->emitters[emitting++] = emitter;
     }
     scene->emitter_count = emitting;
-    if (count > 0)
+    if (count == 1)
+        aur_warn_at(warnings, first, "this light has no area and gives no light");
+    else if (count > 1)
         aur_warn_at(warnings, first, "%zu lights have no area and give no light (the first is here)", count);
 }
 

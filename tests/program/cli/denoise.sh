@@ -87,6 +87,8 @@ AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --d
 grep -q 'denoised half' message.txt && fail "an error of halves without a target"
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --error 60% --integrator path -o f.exr --denoise 2>message.txt
 grep -q 'denoised half of the samples: [0-9.]* % of the local mean (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
+AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 1 --height 1 --error 60% --integrator path -o f.exr --denoise 2>message.txt
+grep -q 'denoised half of the samples: .*, without a bound for so few pixels' message.txt || fail "one pixel: $(cat message.txt)"
 # Where the image has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"

@@ -61,6 +61,8 @@ refused '--error: expected' --error 0
 refused '--error: expected' --error 200%
 refused '--error: expected' --error nan
 refused '--time: expected' --time 0
+refused 'above 0 seconds and finite' --time inf
+refused "'--error-measure' needs" --error-measure mean
 refused '--rays: expected' --rays 0
 refused '--rays: expected' --rays 1e30
 refused 'below the target error' --error 1% --bias 2% --integrator path

@@ -33,7 +33,7 @@ good inside-light "<shape type='sphere'><float name='radius' value='9'/><boolean
 good light-on-surface "<shape type='rectangle'/><emitter type='point'><rgb name='intensity' value='1'/></emitter>"
 printf 'v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n' >none.obj
 good no-light "<shape type='obj'><string name='filename' value='none.obj'/><emitter type='area'/></shape>"
-"$aureole" info s.xml 2>&1 | grep -Eq '^aureole: warning: s.xml:[0-9]+:[0-9]+: 1 lights have no area and give no light' || fail "a light without area says nothing"
+"$aureole" info s.xml 2>&1 | grep -Eq '^aureole: warning: s.xml:[0-9]+:[0-9]+: this light has no area and gives no light' || fail "a light without area says nothing"
 bad "a scale of zero" 's.xml:[0-9]+:[0-9]+: .*must not be 0' "<shape type='rectangle'><transform name='to_world'><scale x='0'/></transform><emitter type='area'/></shape>"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n' >far.obj
 bad "an index of 10^9" 'far.obj:4: index 1000000000 is not a vertex' "<shape type='obj'><string name='filename' value='far.obj'/></shape>"

@@ -33,7 +33,7 @@ for kind in envmap projector area spot; do
     scene $file "${body//FILE/$file}"
   done
   cmp odd.exr finite.exr || { echo "$kind: another image than of 65504 and 0"; exit 1; }
-  grep -q 'odd.pfm: 2 infinite values are read as 65504, 1 that are NaN as 0' odd.said && grep -q 'odd.pfm: 2 negative' odd.said || { echo "$kind: no warning"; cat odd.said; exit 1; }
+  grep -q 'odd.pfm: infinite values are read as 65504: 2' odd.said && grep -q 'odd.pfm: values that are NaN are read as 0: 1' odd.said && grep -q 'odd.pfm: 2 negative' odd.said || { echo "$kind: no warning"; cat odd.said; exit 1; }
   ! grep -q 'finite.pfm' finite.said || { echo "$kind: a warning of what is right"; exit 1; }
 done
 

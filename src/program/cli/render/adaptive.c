@@ -134,10 +134,13 @@ static void print_result(aur_adaptive *adaptive, const cli_target *target, const
 }
 
 void cli_report_denoised(const aur_error_figures *figures, aur_error_measure measure) {
+    char bound[64] = "without a bound for so few pixels";
+    if (isfinite(figures->high))
+        snprintf(bound, sizeof bound, "at most %.3g (95 %%)", 100.0 * figures->high);
     aur_print(stderr,
               "aureole: the error above is that of the noisy image; denoised half of the samples: %.3g %% "
-              "%s, at most %.3g (95 %%)\n",
-              100.0 * figures->error, measure_texts[measure], 100.0 * figures->high);
+              "%s, %s\n",
+              100.0 * figures->error, measure_texts[measure], bound);
 }
 
 static aur_result print_json(aur_adaptive *adaptive, const char *output, const aur_image *image,

@@ -52,9 +52,10 @@ static void warn_of_image(const aur_loader *self, const aur_image *image, const 
         return;
     for (size_t i = 0; i < (channels[0] == channels[1] ? 1u : 3u); ++i)
         aur_image_count_odd(image, channels[i], found);
-    if (found[0] + found[1] > 0)
-        aur_warn_at(self->warnings, where, "%zu infinite values are read as 65504, %zu that are NaN as 0",
-                    found[0], found[1]);
+    if (found[0] > 0)
+        aur_warn_at(self->warnings, where, "infinite values are read as 65504: %zu", found[0]);
+    if (found[1] > 0)
+        aur_warn_at(self->warnings, where, "values that are NaN are read as 0: %zu", found[1]);
     if (found[2] > 0)
         aur_warn_at(self->warnings, where,
                     "%zu negative values are read as 0, but as heights of a bumpmap as they are", found[2]);
