@@ -131,9 +131,11 @@ static inline float aur_survival(aur_vector beta) {
     return aur_smaller(aur_vector_max(beta), 0.95f);
 }
 
-/* The same for a particle, whose power a vertex changes: all survivors have nearly equal power. */
+/* The same for a particle, whose power a vertex changes: all survivors have nearly equal power. Powers below
+ * the smallest normal float are 0. */
 static inline float aur_particle_survival(aur_vector before, aur_vector after) {
-    return aur_smaller(aur_vector_max(after) / aur_vector_max(before), 1.0f);
+    const float most = aur_vector_max(before);
+    return most > 0.0f ? aur_smaller(aur_vector_max(after) / most, 1.0f) : 0.0f;
 }
 
 /* Whether u in [0,1) lets a path survive; then its beta is divided by the survival probability. */

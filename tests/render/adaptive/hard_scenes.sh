@@ -44,6 +44,10 @@ check point 'has an error of' --error 10% --width 4 --height 3 --filter lanczos
 # A lamp in glass that only rare paths meet: a few dark samples of a pixel are no black image.
 scene glass "$room<shape type='sphere'><point name='center' x='0' y='0' z='.5'/><float name='radius' value='.3'/><bsdf type='dielectric'/></shape><shape type='sphere'><point name='center' x='0' y='0' z='.5'/><float name='radius' value='.05'/><emitter type='area'><rgb name='radiance' value='100'/></emitter></shape>"
 check glass 'has an error of' --error 50% --width 1 --height 1
+# Light below the smallest normal float ends with its first bounce.
+scene faint "$room<shape type='sphere'><float name='radius' value='.1'/><emitter type='area'><rgb name='radiance' value='1e-38'/></emitter></shape>"
+check faint 'is black' --error 30% --integrator finalgather:photons=1000
+grep -q 'were cut' said.txt && fail "a faint light: $(cat said.txt)"
 
 # A budget next to an error ends the render: no race, whose photons alone would take more.
 "$aureole" render point.xml -t 1 --no-cache -q --json -o out.exr --error 1% --rays 1000 >out.json || fail "a budget next to an error"
