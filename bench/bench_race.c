@@ -75,13 +75,11 @@ static bool run_row(const aur_scene *scene, size_t row, const target *goal, doub
 }
 
 /* All candidates; what takes four times as many rays as the chosen one is not the best by any price of a ray.
- * The row that is only for denoised images is left out. */
+ */
 static bool run_rows(const aur_scene *scene, const target *goal, size_t chosen, outcome rows[AUR_RACE_ROWS]) {
     bool good = run_row(scene, chosen, goal, 0.0, &rows[chosen]);
     for (size_t i = 0; i < AUR_RACE_ROWS && good; ++i)
-        if (i == AUR_RACE_EIGHT)
-            rows[i] = (outcome){.met = false};
-        else if (i != chosen)
+        if (i != chosen)
             good = run_row(scene, i, goal, 4.0 * rows[chosen].rays, &rows[i]);
     return good;
 }
@@ -89,13 +87,12 @@ static bool run_rows(const aur_scene *scene, const target *goal, size_t chosen, 
 static void print_rows(const outcome *whole, const outcome rows[AUR_RACE_ROWS]) {
     const size_t chosen = whole->row;
     printf("       ");
-    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-        if (i != AUR_RACE_EIGHT) {
-            printf(" %s %s%.2f", aur_race_name(i), rows[i].met ? "" : ">",
-                   rows[i].seconds / rows[chosen].seconds);
-            if (whole->needs[i] > 0.0)
-                printf(" (%.2f)", whole->needs[i] / whole->needs[chosen]);
-        }
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        printf(" %s %s%.2f", aur_race_name(i), rows[i].met ? "" : ">",
+               rows[i].seconds / rows[chosen].seconds);
+        if (whole->needs[i] > 0.0)
+            printf(" (%.2f)", whole->needs[i] / whole->needs[chosen]);
+    }
     printf("\n");
 }
 

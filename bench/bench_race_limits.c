@@ -47,6 +47,7 @@ static bool compete(aur_renderer *renderer, const aur_race_limits *limits, doubl
                        .path = "path",
                        .width = WIDTH,
                        .height = HEIGHT,
+                       .image_replicas = REPLICAS,
                        .replica_count = REPLICAS,
                        .error = error,
                        .cancelled = &never,

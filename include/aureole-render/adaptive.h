@@ -26,8 +26,10 @@ typedef struct aur_adaptive_options {
      * zero. The target of the noise is reduced by it, and the reported error includes it. 0 if the integrator
      * is chosen automatically: then its bias is measured. */
     double bias;
-    double confidence;         /* of the interval, in [.5, .9999]; 0: .95 */
-    size_t replicas;           /* independent renderings, 3 to 16; 0: 4 */
+    double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
+    /* Independent renderings, 3 to 16; 0: 4. Without a target error also 1: no error is estimated, and all
+     * pixels get the same number of samples, which are stratified together. */
+    size_t replicas;
     aur_error_measure measure; /* of `error` and `bias`; samples go where this error falls most for them */
     /* Not 0: candidates whose neighbouring pixels share gather directions are not tried, because denoisers
      * keep noise that pixels share. */
@@ -73,7 +75,7 @@ typedef struct aur_error_figures {
 typedef struct aur_adaptive_report {
     size_t size;
     /* By the measure of the options: of this image, not of images with other seeds. Infinite before the first
-     * round, and for an image that is black. */
+     * round, of a single replica, and for an image that is black. */
     double error, error_low, error_high;
     double mean; /* over all pixels and channels R, G, B */
     /* Independent values that the error consists of: about one per pixel and channel for noise, few if all
@@ -121,11 +123,11 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_get_candidate(const aur_adaptive *adapt
 /* The integrator with its keys, as aur_render_options take it. `adaptive` owns the text. */
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
 
-/* The image, a new one with channels R, G, B. With `errors` also error.R, error.G, error.B: the standard
- * error of each value, estimated from the replicas, in the image's units. With aur_render_options' `clamp`
- * also clamped.R, .G, .B. Other channels that an integrator adds are left out, which aur_adaptive_create
- * warns of. This function and aur_adaptive_get_report may also be called from the progress callback. Errors:
- * UNSUPPORTED while there is no image yet, MEMORY. */
+/* The image, a new one with channels R, G, B. With `errors` also error.R, error.G, error.B, unless there is
+ * a single replica: the standard error of each value, estimated from the replicas, in the image's units. With
+ * aur_render_options' `clamp` also clamped.R, .G, .B. Other channels that an integrator adds are left out,
+ * which aur_adaptive_create warns of. This function and aur_adaptive_get_report may also be called from the
+ * progress callback. Errors: UNSUPPORTED while there is no image yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                                  aur_error *error) AUR_NONNULL(1, 3);
 

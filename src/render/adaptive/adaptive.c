@@ -35,11 +35,13 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown error measure %d", (int)target->measure);
     if (target->replicas == 0)
         target->replicas = 4;
-    if (target->replicas < 3 || target->replicas > AUR_REPLICAS_MAX)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 3 to %d replicas, not %zu",
-                        (int)AUR_REPLICAS_MAX, target->replicas);
     if (target->error == 0.0 && target->seconds == 0.0 && target->rays == 0 && target->rounds == 0)
         target->error = 0.01;
+    if (target->replicas > AUR_REPLICAS_MAX ||
+        (target->replicas < 3 && (target->replicas != 1 || target->error > 0.0)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "there must be 3 to %d replicas, or 1 without a target error, not %zu",
+                        (int)AUR_REPLICAS_MAX, target->replicas);
     return AUR_OK;
 }
 
@@ -250,6 +252,8 @@ static double bound_part(const aur_adaptive *adaptive) {
 static aur_error_interval whole_error(const aur_adaptive *adaptive, size_t measure) {
     const aur_error_interval *const noise = &adaptive->candidate.intervals[measure];
     const aur_bias *const bias = &adaptive->bias[measure];
+    if (adaptive->target.replicas == 1)
+        return *noise;
     return (aur_error_interval){
         .estimate = sqrt(noise->estimate * noise->estimate + fmax(bias->estimate, 0.0)),
         .low = sqrt(noise->low * noise->low + bias->low),
@@ -370,7 +374,8 @@ const char *aur_adaptive_integrator(const aur_adaptive *adaptive) {
 
 aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                 aur_error *error) {
-    return aur_replicas_develop(&adaptive->candidate.replicas, 0, 1, errors, image, error);
+    const aur_replicas *const replicas = &adaptive->candidate.replicas;
+    return aur_replicas_develop(replicas, 0, 1, errors && replicas->count > 1, image, error);
 }
 
 aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half, aur_image **image,

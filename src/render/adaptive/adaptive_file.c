@@ -150,7 +150,7 @@ aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_err
                         "only an image with the option 'resumable' can be continued");
     aur_checkpoint checkpoint;
     aur_result result = aur_checkpoint_load(path, false, &checkpoint, error);
-    if (result == AUR_OK && checkpoint.film_count < 2)
+    if (result == AUR_OK && checkpoint.film_count < 2 && adaptive->target.replicas > 1)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                              "of another render: it was not made to an error, a time or a number of rays");
     if (result == AUR_OK)

@@ -19,7 +19,7 @@ static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene
     const aur_render *const render = candidate->replicas.renders[0];
     const aur_integrator *const integrator = aur_render_integrator(render);
     const aur_film_layout *const layout = &aur_render_film(render)->layout;
-    if (!integrator->descriptor->shows_emitters)
+    if (!integrator->descriptor->shows_emitters || candidate->replicas.count == 1)
         return AUR_OK;
     const aur_result found =
         aur_visible_emitters_find(scene, layout, AUR_EMITTER_POINTS, seed, &candidate->visible, error);
@@ -199,6 +199,16 @@ static double power_of(power *last, double x, double exponent) {
     return last->is;
 }
 
+/* A single replica has no variances by which samples could go to some pixels. */
+static bool raise_evenly(aur_candidate *candidate, double factor) {
+    const double goal = fmin(ceil(candidate->targets[0] / factor), AUR_SAMPLES_PER_PIXEL_MAX);
+    const bool raised = goal > candidate->targets[0];
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        candidate->targets[i] = (uint32_t)goal;
+    round_to_patterns(candidate);
+    return raised;
+}
+
 bool aur_candidate_plan(aur_candidate *candidate, double factor) {
     const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
     memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
@@ -207,6 +217,8 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
     if (candidate->begun)
         for (size_t i = 0; i < candidate->value_count; ++i)
             candidate->targets[i] = (uint32_t)candidate->pattern_samples;
+    else if (candidate->replicas.count == 1)
+        candidate->begun = raise_evenly(candidate, factor);
     else if (aur_candidate_is_dark(candidate) && candidate->bound > 0.0)
         candidate->begun = raise_all(candidate);
     else {
@@ -341,11 +353,23 @@ void aur_candidate_measure(aur_candidate *candidate) {
     aur_candidate_weigh(candidate, candidate->error_measure);
 }
 
-/* By the target's measure. */
+static double mean_of(const aur_candidate *candidate) {
+    const size_t count = candidate->replicas.pixel_count;
+    double sum = 0.0;
+    for (size_t i = 0; i < 3 * count; ++i)
+        sum += candidate->values[i / 3][i % 3];
+    return sum / (3.0 * (double)count);
+}
+
+/* By the target's measure; a single replica has no error. */
 static void measure(aur_candidate *candidate, double confidence) {
     const aur_error_measure m = candidate->error_measure;
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_measure(candidate);
+    if (candidate->replicas.count == 1) {
+        candidate->measure.mean = mean_of(candidate);
+        return;
+    }
     aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
                          (aur_weighing){m, candidate->weights}, &candidate->measure, &pixels);
     pool_pixels(candidate);
@@ -354,6 +378,8 @@ static void measure(aur_candidate *candidate, double confidence) {
 
 void aur_candidate_measure_by(aur_candidate *candidate, aur_error_measure m, double confidence) {
     aur_replica_measure other;
+    if (candidate->replicas.count == 1)
+        return;
     aur_candidate_weigh(candidate, m);
     aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
                          (aur_weighing){m, candidate->weights}, &other, NULL);
@@ -388,6 +414,8 @@ aur_result aur_candidate_render(aur_candidate *candidate, double confidence, con
     aur_spent_add(&spent, &candidate->replicas, 0);
     candidate->finished = (double)spent.all.samples / (double)candidate->replicas.pixel_count;
     measure(candidate, confidence);
+    if (candidate->replicas.count == 1)
+        return AUR_OK;
     smooth(candidate);
     pool_variances(candidate);
     learn_rate(candidate, earlier_error, earlier_samples);

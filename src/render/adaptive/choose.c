@@ -18,7 +18,12 @@ static const double LEAST_LEVEL = 0.1;
 /* The rays of corrections during the rounds, relative to the candidate's; and relative to a budget of rays.
  */
 static const double CORRECTIONS_PART = 0.05;
-enum { COLOURS = 3 };
+/* Replicas of the race's blocks where the image has one. */
+enum { COLOURS = 3, SPREAD = 4 };
+
+static bool is_single(const aur_adaptive *adaptive) {
+    return adaptive->target.replicas == 1;
+}
 
 /* Integrators whose image is not the radiance of all paths: another integrator would give another image. */
 static bool renders_other_quantity(const char *name) {
@@ -59,7 +64,8 @@ static uint64_t rays_left(const aur_adaptive *adaptive) {
 }
 
 uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive) {
-    const bool corrects = adaptive->target.rays > 0 && aur_race_gathers(adaptive->row);
+    const bool corrects =
+        adaptive->target.rays > 0 && aur_race_gathers(adaptive->row) && !is_single(adaptive);
     return corrects ? (uint64_t)(CORRECTIONS_PART * (double)rays_left(adaptive)) : 0;
 }
 
@@ -95,7 +101,7 @@ aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_erro
     aur_result result =
         aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
                              adaptive->target.measure, &adaptive->candidate, error);
-    if (result == AUR_OK && aur_race_gathers(adaptive->row)) {
+    if (result == AUR_OK && aur_race_gathers(adaptive->row) && !is_single(adaptive)) {
         const uint64_t traced = aur_rays_traced;
         char *const text = aur_race_correction(adaptive->row, adaptive->path, adaptive->photons);
         result = text != NULL
@@ -110,7 +116,8 @@ aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_erro
 }
 
 aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error) {
-    char *const text = aur_race_integrator(row, adaptive->path, photons, 0);
+    const uint64_t seed = is_single(adaptive) ? aur_race_seed(&adaptive->options) : 0; /* its map may exist */
+    char *const text = aur_race_integrator(row, adaptive->path, photons, seed);
     adaptive->row = row;
     adaptive->photons = photons;
     adaptive->level = AUR_NOISE_LEVEL;
@@ -150,7 +157,8 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
                        .path = adaptive->path,
                        .width = layout->x1 - layout->x0,
                        .height = layout->y1 - layout->y0,
-                       .replica_count = adaptive->target.replicas,
+                       .replica_count = is_single(adaptive) ? SPREAD : adaptive->target.replicas,
+                       .image_replicas = adaptive->target.replicas,
                        .measure = adaptive->target.measure,
                        .error = adaptive->target.error,
                        .budget = (double)adaptive->target.rays,

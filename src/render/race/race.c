@@ -19,10 +19,11 @@ static const aur_race_limits default_limits = {
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
 /* A candidate's shading takes time without a ray: 1.13 to 1.22 times a plain path's in four scenes. */
 static const double CANDIDATES_PRICE = 1.2;
-/* The shortest time limit for which a race is worthwhile, and the shortest for one of all first blocks. */
-static const double LEAST_SECONDS = 0.3, LONG_SECONDS = 2.0;
+/* The shortest time limit for which a race is worthwhile, for each replica of the image, and the shortest for
+ * one of all first blocks. */
+static const double LEAST_SECONDS = 0.075, LONG_SECONDS = 2.0;
 /* Samples per pixel that a replica of each row renders: whole patterns. */
-static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2, 2};
+static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2};
 
 static void drop(aur_race_entry *entry, const char *reason) {
     snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
@@ -91,8 +92,7 @@ static void set_targets(const aur_race *race, size_t block, size_t border, uint3
 /* Renders the blocks from the candidate's current number up to `count`. */
 static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_error *error) {
     aur_race_entry *const entry = &race->entries[row];
-    char *const text =
-        aur_race_integrator(row, race->path, MAP_PHOTONS, (race->options->seed & UINT32_MAX) + 1);
+    char *const text = aur_race_integrator(row, race->path, MAP_PHOTONS, aur_race_seed(race->options));
     uint32_t *const targets = calloc(race->width * race->height, sizeof *targets);
     aur_replicas replicas = {0};
     aur_render_options local = *race->options;
@@ -176,10 +176,10 @@ static double price(const aur_race_entry *entry, size_t row) {
 
 /* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
 static double least_work(const aur_race *race, size_t row) {
-    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0};
+    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0};
     const aur_race_entry *const entry = &race->entries[row];
-    const double map = aur_race_gathers(row) ? aur_race_least_map(race->replica_count) : 0.0;
-    const double pixels = (double)(race->width * race->height * race->replica_count);
+    const double map = aur_race_gathers(row) ? aur_race_least_map(race->image_replicas) : 0.0;
+    const double pixels = (double)(race->width * race->height * race->image_replicas);
     return entry->rays / entry->samples * patterns[row] * pixels + map;
 }
 
@@ -192,7 +192,7 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
                         (double)(race->width * race->height);
     if (!(race->error > 0.0))
         return work;
-    const double map = fmax(AUR_RACE_MAP_PART * work, aur_race_least_map(race->replica_count));
+    const double map = fmax(AUR_RACE_MAP_PART * work, aur_race_least_map(race->image_replicas));
     return fmax(work + (aur_race_gathers(row) ? map : 0.0), least_work(race, row));
 }
 
@@ -307,8 +307,8 @@ static aur_result run_smallest(aur_race *race, size_t blocks, aur_error *error) 
 /* Renders the first blocks with other rows, those most different first, while their work is small next to the
  * image's. */
 static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
-    const size_t small = race->apart ? AUR_RACE_EIGHT : AUR_RACE_SHARED;
-    const size_t others[] = {AUR_RACE_PATH, small, AUR_RACE_LONG, AUR_RACE_LIGHTS, AUR_RACE_CANDIDATES};
+    const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS,
+                             AUR_RACE_CANDIDATES};
     const double most = race->limits->first_part * whole_work(race, AUR_RACE_MIDDLE);
     /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
     const bool path = 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
@@ -318,18 +318,17 @@ static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < sizeof others / sizeof others[0] && result == AUR_OK; ++k) {
         const size_t row = others[k];
-        const bool needed =
-            (path && row == AUR_RACE_PATH) || (smaller && (row == small || row == AUR_RACE_CANDIDATES));
-        if (row == AUR_RACE_CANDIDATES && !has_choice)
+        const bool needed = (path && row == AUR_RACE_PATH) ||
+                            (smaller && (row == AUR_RACE_SHARED || row == AUR_RACE_CANDIDATES));
+        if (row == AUR_RACE_SHARED && race->apart)
+            drop(&race->entries[row], "not tried: denoisers keep noise that pixels share");
+        else if (row == AUR_RACE_CANDIDATES && !has_choice)
             drop(&race->entries[row], "not tried: there is a single light");
         else if (needed || spent_work(race) + first_rung(race, row) <= most)
             result = render_blocks(race, row, blocks, error);
         else
             drop(&race->entries[row], "not tried: its first blocks cost more than a fifth of the image");
     }
-    const size_t unused = race->apart ? AUR_RACE_SHARED : AUR_RACE_EIGHT;
-    drop(&race->entries[unused], race->apart ? "not tried: denoisers keep noise that pixels share"
-                                             : "not tried: only for denoised images by a time limit");
     for (size_t row = 0; row < AUR_RACE_ROWS && result == AUR_OK; ++row)
         if (aur_race_gathers(row) && is_measured(&race->entries[row], blocks) && !fits(race, row))
             drop(&race->entries[row], "one pattern in each pixel takes longer than requested");
@@ -391,8 +390,9 @@ static aur_result run(aur_race *race, aur_error *error) {
     const size_t blocks = race->blocks.count < first ? race->blocks.count : first;
     aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     aur_error refused = {0};
-    if ((race->budget > 0.0 && race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->replica_count)) ||
-        (race->seconds > 0.0 && race->seconds <= LEAST_SECONDS)) {
+    if ((race->budget > 0.0 &&
+         race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->image_replicas)) ||
+        (race->seconds > 0.0 && race->seconds <= LEAST_SECONDS * (double)race->image_replicas)) {
         drop(middle, "not tried: its photons cost more than a quarter of the request");
         return AUR_OK;
     }

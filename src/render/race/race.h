@@ -16,7 +16,6 @@ enum {
     AUR_RACE_LIGHTS,
     AUR_RACE_LONG,
     AUR_RACE_CANDIDATES,
-    AUR_RACE_EIGHT,
     AUR_RACE_FOUR,
     AUR_RACE_ROWS
 };
@@ -26,6 +25,8 @@ static inline bool aur_race_gathers(size_t row) {
     return row != AUR_RACE_PATH && row != AUR_RACE_CANDIDATES;
 }
 
+/* The seed of the map that all candidates of a race share. */
+uint64_t aur_race_seed(const aur_render_options *options);
 /* A candidate's integrator with its keys, allocated with malloc; NULL: out of memory. `path` is
  * "path[:key=value...]", whose keys are passed on. Each replica has separate photons; with a `seed` other
  * than 0 all share one map. */
@@ -65,7 +66,8 @@ typedef struct aur_race {
     const aur_render_options *options; /* of the image, with its size */
     const char *path;                  /* integrator of row 0 */
     size_t width, height;              /* of the film */
-    size_t replica_count;
+    size_t replica_count;              /* of the blocks */
+    size_t image_replicas;             /* of the request */
     aur_error_measure measure;
     double error;   /* target of noise and bias; 0: none */
     double budget;  /* rays of the request; 0: none */

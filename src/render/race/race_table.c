@@ -11,9 +11,8 @@ static const double RAYS_PER_PHOTON = 2.5;
 enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 
 /* Path tracing; final gathering by 8 directions shared with neighbours; by 32, with 4 and with 16 light
- * samples; and without short rays; paths with two candidates for each light sample; gathering by 8 directions
- * that are not shared, in place of the shared ones; and by 4 that are. A correction has only `keys`: nothing
- * is shared. */
+ * samples; and without short rays; paths with two candidates for each light sample; and gathering by 4 shared
+ * directions. A correction has only `keys`: nothing is shared. */
 typedef struct race_row {
     const char *name, *keys, *more;
 } race_row;
@@ -30,8 +29,6 @@ static const race_row rows[AUR_RACE_ROWS] = {
                        "split=4,diffuse_samples=32,glossy_samples=16,light_samples=1,short_rays=0",
                        ",edges=192"},
     [AUR_RACE_CANDIDATES] = {"path-2", "candidates=2", NULL},
-    [AUR_RACE_EIGHT] = {"gather-8", "split=1,diffuse_samples=8,glossy_samples=4,light_samples=4",
-                        ",edges=96"},
     [AUR_RACE_FOUR] = {"gather-4-shared", "split=1,diffuse_samples=4,glossy_samples=4,light_samples=2",
                        ",edges=48,share=near"},
 };
@@ -60,6 +57,10 @@ char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t
 
 char *aur_race_correction(size_t row, const char *path, size_t photons) {
     return compose(row, path, photons, ",debias=found,continued=1");
+}
+
+uint64_t aur_race_seed(const aur_render_options *options) {
+    return (options->seed & UINT32_MAX) + 1;
 }
 
 double aur_photon_work(size_t photons) {

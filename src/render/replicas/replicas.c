@@ -18,7 +18,8 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
     replica_options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     *replicas = (aur_replicas){0};
     for (size_t r = 0; r < count; ++r) {
-        replica_options.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
+        if (count > 1)
+            replica_options.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
         const aur_result result = aur_render_create(renderer, &replica_options, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;

@@ -72,16 +72,24 @@ command -v python3 >/dev/null || { echo "no python3: the values are not tested";
 lights 16
 check a --spp 2
 lights 8 # the fewest, where rays are counted
-check b --rounds 2
+check b --rounds 2 --error-map
 # Four samples per pixel leave pixels far from all around them: the denoiser takes them away, and the limit brings none back.
 export STUB_BLURS=1
-render -o plain.exr --filter box --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --denoise || fail "no blurred image"
+render -o plain.exr --filter box --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --error-map --denoise || fail "no blurred image"
 unset STUB_BLURS
 "$aureole" convert plain.exr plain.pfm --channels R,G,B && "$aureole" convert e.exr e.pfm --channels R,G,B || fail "no channels"
 isolated() { python3 "$source/tests/program/cli/isolated.py" "$1"; }
 noisy=$(isolated plain.pfm) clean=$(isolated e.pfm)
 echo "isolated pixels, bright and dark: $noisy of the noisy image, $clean of the denoised one"
 [ "${noisy% *}" -gt 10 ] && [ "${clean% *}" -eq 0 ] || fail "isolated pixels"
+# Without a target error there is one image, without replicas: the line that reproduces it gives its bits.
+AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --time 0.2s -o g.exr --denoise 2>message.txt
+grep -q 'g.exr has [0-9]* samples per pixel' message.txt && ! grep -q 'inf\|nan' message.txt || fail "one image: $(cat message.txt)"
+eval "AUREOLE_OIDN=$stub render -o h.exr $(sed -n 's/.*to reproduce this image://p' message.txt)" && cmp g.exr h.exr || fail "not reproduced: $(cat message.txt)"
+AUREOLE_OIDN=$stub render --time 0.2s --json -o g.exr --denoise >g.json && python3 -c 'import json
+report = json.load(open("g.json"))
+report = report[0] if isinstance(report, list) else report
+assert report["error"] is None and report["samples_per_pixel"] >= 1, report' || fail "JSON of one image: $(cat g.json)"
 # With a target error, two halves estimate the error of the denoised image.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
 grep -q 'denoised half' message.txt && fail "an error of halves without a target"
@@ -105,12 +113,13 @@ else
     [ "$scene" != room/room ] || [ -e "$source/scenes/generated/wood.exr" ] || continue # scripts/scenes.sh makes it
     small "$scene" --filter box --spp 256 || fail "$scene: no image"
     read -r true _ < <(isolated a.exr R,G,B)
-    for option in --rounds --spp; do # with the limit of changes, and without
-      small "$scene" "$option" 2 --denoise || fail "$scene $option: not denoised"
+    for option in "--rounds 2 --error-map" "--rounds 2" "--spp 2"; do # with the limit of changes, and without
+      # shellcheck disable=SC2086
+      small "$scene" $option --denoise || fail "$scene $option: not denoised"
       read -r noisy _ < <(isolated a.exr noisy.R,noisy.G,noisy.B)
       read -r clean _ < <(isolated a.exr R,G,B)
       { [ "$noisy" -gt 10 ] && [ "$clean" -le "$true" ]; } ||
-        fail "$scene $option 2: $noisy isolated bright pixels, $clean after denoising, $true of 256 samples"
+        fail "$scene $option: $noisy isolated bright pixels, $clean after denoising, $true of 256 samples"
     done
   done
 fi

@@ -417,6 +417,52 @@ static void test_resumed_report(void **state) {
     aur_adaptive_destroy(resumed);
 }
 
+/* A single replica is the image of the same seed with as many samples in every pixel, also after an
+ * interruption. */
+static void test_single(void **state) {
+    const prepared *const f = *state;
+    aur_render_options options = small(2);
+    options.integrator = "path:lamp_rays=0";
+    options.sampler = "sobol";
+    options.filter = "box";
+    options.seed = 7;
+    aur_render *render = NULL;
+    aur_image *whole = NULL;
+    aur_adaptive *parts[2] = {NULL, NULL};
+    for (size_t k = 0; k < 2; ++k) {
+        aur_adaptive_options target = {.size = sizeof target};
+        aur_adaptive_options_init(&target, NULL);
+        target.replicas = 1;
+        target.rounds = 4;
+        options.resumable = true;
+        assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &parts[k], NULL), AUR_OK);
+        if (k == 1)
+            assert_int_equal(aur_adaptive_resume(parts[k], "single.part", NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_run(parts[k], NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_save(parts[k], "single.part", NULL), AUR_OK);
+        const aur_adaptive_report report = report_of(parts[k]);
+        assert_true(isinf(report.error) && isinf(report.error_high) && report.mean > 0.0);
+        assert_true(report.samples_per_pixel > 4.0 && report.replicas == 1);
+        options.resumable = false;
+        options.samples_per_pixel = (size_t)report.samples_per_pixel;
+        aur_image *const image = image_of(parts[k]);
+        assert_int_equal(aur_image_channel_count(image), 3);
+        if (k == 0) {
+            assert_int_equal(aur_render_create(f->renderer, &options, &render, NULL), AUR_OK);
+            assert_int_equal(aur_render_step(render, options.samples_per_pixel, NULL), AUR_OK);
+            assert_int_equal(aur_film_develop(aur_render_film(render), &whole, NULL), AUR_OK);
+        }
+        options.samples_per_pixel = 0;
+        assert_memory_equal(aur_image_data(image), aur_image_data(whole), 40 * 24 * 3 * sizeof(float));
+        aur_image_destroy(image);
+    }
+    remove("single.part");
+    aur_image_destroy(whole);
+    aur_render_destroy(render);
+    aur_adaptive_destroy(parts[0]);
+    aur_adaptive_destroy(parts[1]);
+}
+
 static void test_bad_wishes(void **state) {
     const prepared *const f = *state;
     static const aur_adaptive_options bad[] = {
@@ -429,6 +475,8 @@ static void test_bad_wishes(void **state) {
         {.size = sizeof bad[0], .error = 0.1, .bias = 0.05}, /* nobody names the integrator */
         {.size = sizeof bad[0], .error = 0.1, .bias = 0.1},
         {.size = sizeof bad[0], .replicas = 2},
+        {.size = sizeof bad[0], .error = 0.1, .replicas = 1},
+        {.size = sizeof bad[0], .replicas = 1}, /* to the default target error */
         {.size = sizeof bad[0], .replicas = 17},
         {.size = 0},
     };
@@ -457,6 +505,7 @@ int main(void) {
                                        cmocka_unit_test(test_rays_make_the_pattern),
                                        cmocka_unit_test(test_cancelled_image_is_preserved),
                                        cmocka_unit_test(test_resumed_report),
+                                       cmocka_unit_test(test_single),
                                        cmocka_unit_test(test_bad_wishes)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -83,7 +83,7 @@ static void print_option(const char *option, double value) {
 /* Prints the command that reproduces the image bit for bit without a choice of integrator or a time limit. */
 static void print_command(const aur_adaptive *adaptive, const cli_target *target,
                           const aur_adaptive_report *report) {
-    aur_print(stderr, "aureole: to reproduce this image:");
+    aur_print(stderr, "aureole: to reproduce this image:%s", target->replicas == 1 ? " --denoise" : "");
     if (*aur_adaptive_integrator(adaptive) != '\0')
         aur_print(stderr, " --integrator '%s'", aur_adaptive_integrator(adaptive));
     if (target->error > 0.0)
@@ -112,22 +112,27 @@ static void print_result(aur_adaptive *adaptive, const cli_target *target, const
         return;
     }
     print_command(adaptive, target, &report);
+    const double seconds = spent->prepare_seconds + spent->render_seconds;
     char bias[64] = "";
     if (report.bias_high > 0.0)
         snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
-    aur_print(stderr,
-              "aureole: %s has an error of %.3g %% %s, between %.3g and %.3g (95 %%)%s, after %.4g "
-              "samples per pixel, %.3g rays, %.1f s by %s\n",
-              output, 100.0 * report.error, measure_texts[target->measure], 100.0 * report.error_low,
-              100.0 * report.error_high, bias, report.samples_per_pixel, (double)spent->rays,
-              spent->prepare_seconds + spent->render_seconds, aur_adaptive_integrator(adaptive));
+    if (report.replicas == 1)
+        aur_print(stderr, "aureole: %s has %.4g samples per pixel, %.3g rays, %.1f s by %s\n", output,
+                  report.samples_per_pixel, (double)spent->rays, seconds, aur_adaptive_integrator(adaptive));
+    else
+        aur_print(stderr,
+                  "aureole: %s has an error of %.3g %% %s, between %.3g and %.3g (95 %%)%s, after %.4g "
+                  "samples per pixel, %.3g rays, %.1f s by %s\n",
+                  output, 100.0 * report.error, measure_texts[target->measure], 100.0 * report.error_low,
+                  100.0 * report.error_high, bias, report.samples_per_pixel, (double)spent->rays, seconds,
+                  aur_adaptive_integrator(adaptive));
     for (size_t i = 0; i < report.race_count && verbose; ++i) {
         aur_adaptive_candidate candidate = {.size = sizeof candidate};
         if (aur_adaptive_get_candidate(adaptive, i, &candidate, NULL) == AUR_OK)
             aur_print(stderr, "aureole: candidate %s: %.3g rays for %zu pixels, needs %.3g: %s\n",
                       candidate.name, candidate.rays, candidate.pixels, candidate.need, candidate.reason);
     }
-    for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT && verbose; ++m)
+    for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT && verbose && report.replicas > 1; ++m)
         aur_print(stderr, "aureole: its error is %.3g %% %s, between %.3g and %.3g (95 %%)\n",
                   100.0 * report.errors[m].error, measure_texts[m], 100.0 * report.errors[m].low,
                   100.0 * report.errors[m].high);
@@ -175,6 +180,7 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
     adaptive_options.rounds = target->rounds;
     adaptive_options.measure = target->measure;
     adaptive_options.independent_pixels = target->independent_pixels;
+    adaptive_options.replicas = target->replicas;
     aur_adaptive *adaptive = NULL;
     aur_result result = aur_adaptive_create(renderer, options, &adaptive_options, &adaptive, error);
     *created = adaptive;

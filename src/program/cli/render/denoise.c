@@ -21,17 +21,16 @@ void cli_denoise_end(cli_denoise *denoise) {
     denoise->library = NULL;
 }
 
-/* Samples per pixel that take about a tenth of the image's rays. Fewer show in the denoised image, many more
- * do not. */
-static size_t feature_samples(aur_adaptive *adaptive, size_t pixels) {
-    const double part = 0.1, rays_per_sample = 2.0, least = 8.0, most = 64.0;
-    enum { UNKNOWN_RAYS = 16 };
+/* Half of the image's samples per pixel, of one ray each. Fewer show in the denoised image, many more do not.
+ */
+static size_t feature_samples(aur_adaptive *adaptive) {
+    const double part = 0.5, least = 8.0, most = 64.0;
+    enum { UNKNOWN_SAMPLES = 16 };
     aur_adaptive_report report = {.size = sizeof report};
     if (adaptive == NULL)
-        return UNKNOWN_RAYS;
+        return UNKNOWN_SAMPLES;
     aur_adaptive_get_report(adaptive, &report, NULL);
-    const double rays = (double)report.statistics.rays / (double)pixels;
-    return (size_t)fmin(fmax(part * rays / rays_per_sample, least), most);
+    return (size_t)fmin(fmax(part * report.samples_per_pixel, least), most);
 }
 
 /* Renders albedo, normals and directly visible light. */
@@ -123,9 +122,7 @@ aur_result cli_denoise_image(const cli_denoise *denoiser, aur_renderer *renderer
     if (!denoiser->enabled)
         return AUR_OK;
     aur_image *features = NULL, *whole = NULL;
-    const size_t pixels = aur_image_width(*image) * aur_image_height(*image);
-    aur_result result =
-        render_features(renderer, options, feature_samples(adaptive, pixels), &features, error);
+    aur_result result = render_features(renderer, options, feature_samples(adaptive), &features, error);
     if (result == AUR_OK)
         result = put_together(*image, features, &whole, error);
     if (result == AUR_OK)

@@ -442,9 +442,10 @@ static int run(const cli_call *call) {
     command->file_count = call->operand_count;
     if (cli_stage_read_files(&command->stage, call, &bad) != AUR_OK)
         return cli_fail(&bad);
-    if (command->denoise.enabled) { /* denoising is limited by each pixel's standard error */
-        command->target.error_map = true;
+    if (command->denoise.enabled) { /* with replicas it is limited by each pixel's standard error */
         command->target.independent_pixels = command->target.error == 0.0;
+        command->target.replicas = command->target.error == 0.0 && !command->target.error_map ? 1 : 0;
+        command->target.error_map = command->target.replicas == 0;
     }
     if (command->denoise.enabled &&
         command->options.filter == NULL) /* denoisers keep noise that pixels share */

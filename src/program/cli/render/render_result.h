@@ -124,6 +124,7 @@ typedef struct cli_target {
     aur_error_measure measure;
     bool error_map;
     bool independent_pixels; /* as in aur_adaptive_options */
+    size_t replicas;         /* the same; 0: its default */
 } cli_target;
 
 extern const cli_option cli_target_options[]; /* cli_target */
