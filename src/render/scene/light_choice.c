@@ -1,5 +1,5 @@
-/* Selection of the light to sample: environments and beams by power alone, all others by a tree that takes
- * their positions into account. */
+/* Selection of the light to sample: environments and beams by their number and power, all others by a tree
+ * that takes their positions into account. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,27 +68,47 @@ static void list_lit(aur_light_choice *choice) {
     choice->lit_count = lit <= AUR_FEW_LIGHTS ? lit : 0;
 }
 
+/* The weights of the items: those with power, far lights and the tree, share three quarters whatever their
+ * power is. Powers of far lights count what walls keep out: in proportion to them, a lamp inside a room would
+ * be drawn too rarely. Environments get half, because directions by the BSDF find them as well. */
+static void set_weights(const aur_scene *scene, size_t items, double *weights, double *powers) {
+    const size_t count = scene->emitter_count;
+    double power = 0.0, shares = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        const aur_emitter *const emitter = scene->emitters[i];
+        const size_t item = emitter->first_leaf == AUR_WHOLE_LIGHT ? i : count;
+        powers[item] += emitter->power;
+        weights[item] += emitter->power * weight_of(emitter);
+    }
+    for (size_t i = 0; i < items; ++i) {
+        const bool far = i < count && scene->emitters[i]->descriptor->radiance_from != NULL;
+        power += weights[i];
+        powers[i] = powers[i] > 0.0 ? (far ? 0.5 : 1.0) * weights[i] / powers[i] : 0.0;
+        shares += powers[i];
+    }
+    for (size_t i = 0; i < items && power > 0.0; ++i)
+        weights[i] = 0.25 * weights[i] / power + 0.75 * powers[i] / shares;
+}
+
 aur_result aur_light_choice_create(aur_scene *scene, aur_error *error) {
     aur_light_choice *const choice = &scene->choice;
     const size_t count = scene->emitter_count;
     choice->kernels = &AUR_KERNEL_HERE(aur_light_kernels);
-    double *const powers = calloc(count + 1, sizeof *powers);
+    double *const weights = calloc(2 * (count + 1), sizeof *weights);
     for (size_t i = 0; i < count; ++i)
         scene->emitters[i]->first_leaf = AUR_WHOLE_LIGHT;
-    aur_result result = powers != NULL ? create_tree(scene, error) : aur_fail_memory(error);
+    aur_result result = weights != NULL ? create_tree(scene, error) : aur_fail_memory(error);
     const size_t items = count + (choice->tree.node_count > 0 ? 1 : 0);
-    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
-        const aur_emitter *const emitter = scene->emitters[i];
-        powers[emitter->first_leaf == AUR_WHOLE_LIGHT ? i : count] += emitter->power * weight_of(emitter);
-    }
     if (result == AUR_OK)
-        result = aur_distribution_create(&choice->emitters, items, powers, error);
+        set_weights(scene, items, weights, weights + count + 1);
+    if (result == AUR_OK)
+        result = aur_distribution_create(&choice->emitters, items, weights, error);
     for (size_t i = 0; i < items && result == AUR_OK && choice->emitters.total > 0.0; ++i)
         *(i < count ? &scene->emitters[i]->probability : &choice->tree_probability) =
             (float)aur_distribution_probability(&choice->emitters, i);
     if (result == AUR_OK)
         list_lit(choice);
-    free(powers);
+    free(weights);
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "points/base/random.h"
 #include "render/scene/materials/sampling.h"
+#include "render/scene/scene_data.h"
 
 /* Two lights of unequal power: a sheared rectangle and a turned tetrahedron with a corner cut from an OBJ
  * file. */
@@ -489,6 +490,31 @@ static void lights_without_area_give_no_light(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Shares of a sun, a sky and two lamps of the tree, whose power is 3e-6 of all: a quarter by power, the rest
+ * as 2 to 1 to 2, times the sampling weights. */
+static void small_lamps_are_drawn_under_a_sky(void **state) {
+    (void)state;
+    static const char *const weights[] = {"", "<float name='sampling_weight' value='3'/>"};
+    for (size_t i = 0; i < 2; ++i) {
+        char body[1000];
+        snprintf(
+            body, sizeof body,
+            "<shape type='rectangle'><emitter type='area'><rgb name='radiance' "
+            "value='1e-6'/></emitter></shape>"
+            "<shape type='sphere'><emitter type='area'><rgb name='radiance' value='1e-6'/></emitter></shape>"
+            "<emitter type='constant'/><emitter type='directional'><vector name='direction' z='-1'/>"
+            "<rgb name='irradiance' value='%.17g'/>%s</emitter>",
+            4.0 * AUR_PI, weights[i]); /* the power of the sky */
+        aur_scene *const scene = must_load_body(body);
+        const double weight = i == 0 ? 1.0 : 3.0, shares = 1.0 + 0.5 + weight;
+        assert_near(scene->choice.tree_probability, 0.75 / shares, 1e-5);
+        assert_near(scene->emitters[2]->probability, 0.25 / (1.0 + weight) + 0.375 / shares, 1e-5);
+        assert_near(scene->emitters[3]->probability, 0.25 * weight / (1.0 + weight) + 0.75 * weight / shares,
+                    1e-5);
+        aur_scene_destroy(scene);
+    }
+}
+
 /* Rays inside a closed box of slivers never leave it, and never meet the wall that they start from. */
 static void closed_rooms_stay_closed(void **state) {
     (void)state;
@@ -532,6 +558,7 @@ int main(void) {
         cmocka_unit_test(particles_carry_the_power),
         cmocka_unit_test(emits_on_one_side),
         cmocka_unit_test(lights_without_area_give_no_light),
+        cmocka_unit_test(small_lamps_are_drawn_under_a_sky),
         cmocka_unit_test(closed_rooms_stay_closed),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
