@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { AUR_REPLICAS_MAX = 16 };
+enum { AUR_REPLICAS_MAX = 16, AUR_CELL_SIDE = 2, AUR_CELL_PIXELS = AUR_CELL_SIDE * AUR_CELL_SIDE };
 
 /* Products of the deviations of `count` images from their mean, summed over the values of a block of pixels
  * and channels: the Gram matrix of the block. */
@@ -14,16 +14,18 @@ typedef struct aur_gram {
     double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
 } aur_gram;
 
-/* Sums over the Gram matrices of an image. C is the covariance of one replica's values. Initialise with zeros
- * `overlap` and `linear`. */
+/* Sums over an image's pixels. C is the covariance of one replica's values. Initialise with zeros and
+ * `overlap`. */
 typedef struct aur_deviations {
     double trace;         /* the sum of tr W; expectation (count - 1) tr C */
+    double others;        /* the same of the jackknife's deviations, where the error measure is not linear */
     double blocks;        /* the sum of the blocks' estimates of tr C^2 */
     double square_blocks; /* the sum of their squares */
+    double cells;         /* the sum of the cells' estimates of tr C^2 */
+    double square_cells;  /* the sum of their squares */
     double pixels;        /* the sum of the pixels' estimates of tr C^2 */
     double square_pixels; /* the sum of their squares */
     double overlap;       /* tr C^2 over the pixels' part, where they share samples whose noise is white */
-    bool linear;          /* the error measure is: deviations are those of independent images */
 } aur_deviations;
 
 /* Let Y be the deviations from the expectation. The error of the mean and its estimate from the replicas'
@@ -34,12 +36,24 @@ typedef struct aur_deviations {
  * replicas, values are taken to be normal. */
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
 
-/* Adds and returns tr C^2 of a pixel with normal values (Wishart): (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2))
- * with n = count - 1. Too high for rare large values. A pixel whose light few samples meet must not be taken
- * for one of many that share the error: the mean over sets of four is low wherever only one replica has met
- * it, and lower still where an error measure is not linear, which makes the replicas' differences depend on
- * each other. */
-double aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel);
+/* Sums over the pixels of a cell: of their channels' products of deviations, added up over the replicas, of
+ * the traces of the squares of these, and of the pixels' estimates of tr C^2. */
+typedef struct aur_cell {
+    size_t count, pixels;
+    double products[3][3], squares, spread;
+} aur_cell;
+
+/* Adds a pixel with deviations d[channel][replica] to its cell and to the sum, and returns its tr C^2, from
+ * sets of four as for a block. `others` is tr W of the jackknife's deviations. */
+double aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel, double d[3][AUR_REPLICAS_MAX],
+                                double others, aur_cell *cell);
+
+/* Where few replicas meet a pixel's light, sets of four seldom show its variance. Its neighbours' replicas
+ * have met as much of it. The product of the variances of two pixels has no bias either, whatever their
+ * values' distribution, if their noise is independent. If variances differ, the mean over all pairs in a cell
+ * is lower than the mean of squares (Cauchy and Schwarz). A pixel's product with itself is its estimate from
+ * sets of four. */
+void aur_deviations_add_cell(aur_deviations *sum, const aur_cell *cell);
 
 /* A replica's value of a pixel over all rounds: its variance, the channels together, and tr C^2. */
 typedef struct aur_pixel_spread {
@@ -59,11 +73,12 @@ typedef struct aur_error_interval {
 
 /* The error of the mean of `count` >= 3 images of `values` values, and its interval of probability
  * `confidence` in (0,1). It is the error of this mean, not the expected error over other seeds: the two vary
- * independently, which widens the interval by a factor of 1 + 1/(count - 1) in variance. tr C^2 is
- * estimated by pixels, with their overlap, which rare values make too high. If a measure is linear it is the
- * mean of that and of the blocks' estimate, which rare values make too low. It is at least the blocks'. The
- * interval is computed on the scale of cube roots, where sums of squares with (tr C)^2 / tr C^2 degrees
- * (Satterthwaite 1946) are nearly normal (Wilson and Hilferty 1931), with Student's quantile for the
- * uncertainty of tr C^2. */
+ * independently, which widens the interval by a factor of 1 + 1/(count - 1) in variance. tr C^2 is the
+ * largest of the estimates by blocks, and by cells and pixels with their overlap. The interval is computed on
+ * the scale of cube roots, where sums of squares with (tr C)^2 / tr C^2 degrees (Satterthwaite 1946) are
+ * nearly normal (Wilson and Hilferty 1931), with Student's quantile for the uncertainty of tr C^2. If the
+ * error measure is not linear, the variances of one image and of the mean of all but one (jackknife, Efron
+ * and Stein 1981) give the power of their number with which it falls, and so the variance of the mean of
+ * all. tr C^2 is scaled with it. */
 aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count, size_t values,
                                         double confidence);

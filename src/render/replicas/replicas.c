@@ -94,27 +94,32 @@ static void find_deviations(size_t count, size_t stride, const double (*values)[
             d[c][r] -= mean[c];
 }
 
-/* Converts the replicas' deviations d[channel][replica] from `mean` to those of a pixel's differences.
- * Nonlinear differences are taken to the means of the other replicas (jackknife, Efron and Stein 1981) and
- * scaled back: longer steps overestimate the error of skewed values. */
-void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
+/* Converts the replicas' deviations d[channel][replica] from `mean` to those of a pixel's differences by
+ * steps of `part` of these deviations, scaled back. */
+static void weigh_steps(size_t count, aur_weighing weighing, size_t pixel, double part, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]) {
-    const double part = 1.0 / (double)(count - 1);
     double steps[AUR_REPLICAS_MAX][3], differences[AUR_REPLICAS_MAX][3];
     if (weighing.weights == NULL)
         return;
     for (size_t r = 0; r < count; ++r)
         for (size_t c = 0; c < 3; ++c)
-            steps[r][c] = -part * d[c][r];
+            steps[r][c] = part * d[c][r];
     aur_error_apply(weighing.measure, &weighing.weights[pixel], mean, count, (const double(*)[3])steps,
                     differences);
     for (size_t c = 0; c < 3; ++c) {
         double sum = 0.0;
         for (size_t r = 0; r < count; ++r)
-            sum += d[c][r] = -differences[r][c] / part;
+            sum += d[c][r] = differences[r][c] / part;
         for (size_t r = 0; r < count; ++r)
             d[c][r] -= sum / (double)count;
     }
+}
+
+/* Nonlinear differences are taken to the means of the other replicas (jackknife, Efron and Stein 1981):
+ * longer steps overestimate the error of skewed values. */
+void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
+                        double d[3][AUR_REPLICAS_MAX]) {
+    weigh_steps(count, weighing, pixel, -1.0 / (double)(count - 1), mean, d);
 }
 
 /* Correlation between pixels is estimated within blocks of this side. */
@@ -201,30 +206,65 @@ static void find_gram(size_t count, double d[3][AUR_REPLICAS_MAX], aur_gram *gra
                 d[0][r] * d[0][s] + d[1][r] * d[1][s] + d[2][r] * d[2][s];
 }
 
-/* Adds a block's pixels to the measure, and to its variances and spreads of pixels. */
-static void measure_block(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
-                          pixel_range block, aur_replica_measure *measure, const aur_pixel_measure *pixels) {
-    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    aur_gram gram = {.count = replicas->count}, of_pixel;
-    for (size_t y = block.y0; y < block.y1; ++y)
-        for (size_t x = block.x0; x < block.x1; ++x) {
-            const size_t pixel = y * (layout->x1 - layout->x0) + x;
-            double d[3][AUR_REPLICAS_MAX], means[3];
-            find_deviations(replicas->count, replicas->pixel_count, light + pixel, means, d);
-            for (size_t channel = 0; channel < 3; ++channel)
-                measure->mean += means[channel];
-            aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
-            find_gram(replicas->count, d, &of_pixel);
-            const double spread = aur_deviations_add_pixel(&measure->deviations, &of_pixel);
-            if (pixels != NULL) {
-                find_variances(replicas, pixel, &of_pixel, pixels->variances);
-                pixels->spreads[pixel] = spread;
-            }
-            for (size_t r = 0; r < replicas->count; ++r)
-                for (size_t s = 0; s < replicas->count; ++s)
-                    gram.products[r][s] += of_pixel.products[r][s];
-        }
-    aur_deviations_add(&measure->deviations, &gram);
+/* The sums of a block, and what all its pixels have in common. */
+typedef struct block_sums {
+    const aur_replicas *replicas;
+    const double (*light)[3];
+    aur_weighing weighing;
+    aur_replica_measure *measure;
+    const aur_pixel_measure *pixels;
+    aur_gram gram;
+} block_sums;
+
+/* Adds a pixel to the block, its cell and the measure, and sets its variances and spread. */
+static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
+    const aur_replicas *const replicas = block->replicas;
+    const size_t count = replicas->count;
+    double d[3][AUR_REPLICAS_MAX], single[3][AUR_REPLICAS_MAX], means[3];
+    aur_gram gram;
+    find_deviations(count, replicas->pixel_count, block->light + pixel, means, d);
+    for (size_t channel = 0; channel < 3; ++channel)
+        block->measure->mean += means[channel];
+    memcpy(single, d, sizeof d);
+    aur_replicas_weigh(count, block->weighing, pixel, means, d);
+    find_gram(count, d, &gram);
+    if (block->pixels != NULL)
+        find_variances(replicas, pixel, &gram, block->pixels->variances);
+    double others = 0.0;
+    for (size_t r = 0; r < count; ++r)
+        others += gram.products[r][r];
+    const bool linear =
+        block->weighing.weights == NULL || block->weighing.measure != AUR_ERROR_MEASURE_DISPLAY;
+    if (!linear) {
+        weigh_steps(count, block->weighing, pixel, 1.0, means, single);
+        find_gram(count, single, &gram);
+    }
+    const double spread =
+        aur_deviations_add_pixel(&block->measure->deviations, &gram, linear ? d : single, others, cell);
+    if (block->pixels != NULL)
+        block->pixels->spreads[pixel] = spread;
+    for (size_t r = 0; r < count; ++r)
+        for (size_t s = 0; s < count; ++s)
+            block->gram.products[r][s] += gram.products[r][s];
+}
+
+/* Adds the pixels of a cell to its block and the measure. */
+static void measure_cell(block_sums *block, const aur_film_layout *layout, size_t column, size_t row) {
+    const pixel_range range = cell_of(layout, AUR_CELL_SIDE, column, row);
+    aur_cell cell = {.count = block->replicas->count};
+    for (size_t y = range.y0; y < range.y1; ++y)
+        for (size_t x = range.x0; x < range.x1; ++x)
+            measure_pixel(block, y * (layout->x1 - layout->x0) + x, &cell);
+    aur_deviations_add_cell(&block->measure->deviations, &cell);
+}
+
+static void measure_block(block_sums *block, const aur_film_layout *layout, const pixel_range *range) {
+    const size_t first = (range->x0 + layout->x0) / AUR_CELL_SIDE;
+    for (size_t row = (range->y0 + layout->y0) / AUR_CELL_SIDE; row * AUR_CELL_SIDE < range->y1 + layout->y0;
+         ++row)
+        for (size_t column = first; column * AUR_CELL_SIDE < range->x1 + layout->x0; ++column)
+            measure_cell(block, layout, column, row);
+    aur_deviations_add(&block->measure->deviations, &block->gram);
 }
 
 void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
@@ -232,11 +272,13 @@ void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3]
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){
-        .deviations = {.overlap = film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0,
-                       .linear = weighing.measure != AUR_ERROR_MEASURE_DISPLAY}};
+        .deviations = {.overlap = film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0}};
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
-        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column)
-            measure_block(replicas, light, weighing, cell_of(layout, BLOCK, column, row), measure, pixels);
+        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
+            block_sums block = {replicas, light, weighing, measure, pixels, {.count = replicas->count}};
+            const pixel_range range = cell_of(layout, BLOCK, column, row);
+            measure_block(&block, layout, &range);
+        }
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
