@@ -144,35 +144,46 @@ static uint32_t trace(continuation_walks *walks) {
                : aur_scene_intersect_each(scene, &walks->packet);
 }
 
-/* Computes the surface that a path hits; false if the path ends there. */
-static bool find_surface(continuation_walks *walks, size_t k) {
+/* Computes the surfaces that the paths hit. What is read of them comes from memory together. */
+static void find_surfaces(continuation_walks *walks, uint32_t found) {
+    const aur_scene *const scene = walks->continuation->scene;
+    aur_packet_prefetch_indices(scene, &walks->packet, found);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(scene, &walks->packet, aur_first_lane(rest));
+        const aur_texels *const texels = &walks->continuation->map->texels;
+        __builtin_prefetch(&texels->ranges[aur_element_of(&texels->elements, &hit)]);
+    }
+    aur_packet_prefetch_vertices(scene, &walks->packet, found);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_hit hit = aur_packet_hit(scene, &walks->packet, k);
+        aur_scene_surface(scene, &walks->walk[k].path.ray, &hit, &walks->surfaces[k]);
+        aur_surface_prefetch(scene, &walks->surfaces[k]);
+        walks->view[k] = aur_vector_scale(walks->walk[k].path.ray.direction, -1.0f);
+    }
+}
+
+/* Adds the light of the surface that a path hits; false if the path ends there. */
+static bool visit_surface(continuation_walks *walks, size_t k) {
     const aur_continuation *const continuation = walks->continuation;
     continuation_walk *const walk = &walks->walk[k];
-    const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, k);
-    aur_scene_surface(continuation->scene, &walk->path.ray, &hit, &walks->surfaces[k]);
     add_emission(continuation, &walks->surfaces[k], walk);
-    walks->view[k] = aur_vector_scale(walk->path.ray.direction, -1.0f);
+    if (++walks->edges[k] >= continuation->max_depth)
+        return false;
+    const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, k);
     const aur_shading shading = aur_shading_at(&walks->surfaces[k], walks->view[k]);
-    return ++walks->edges[k] < continuation->max_depth &&
-           survives(continuation, &hit, &shading, walks->view[k], walk);
+    return survives(continuation, &hit, &shading, walks->view[k], walk);
 }
 
 static void bounce(continuation_walks *walks) {
-    const aur_continuation *const continuation = walks->continuation;
     add_direct_light(walks);
     const uint32_t found = trace(walks);
-    aur_packet_prefetch_indices(continuation->scene, &walks->packet, found);
-    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
-        const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, aur_first_lane(rest));
-        __builtin_prefetch(
-            &continuation->map->texels.ranges[aur_element_of(&continuation->map->texels.elements, &hit)]);
-    }
-    aur_packet_prefetch_vertices(continuation->scene, &walks->packet, found);
+    find_surfaces(walks, found);
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         if (!aur_has_lane(found, k))
-            add_emission(continuation, NULL, &walks->walk[k]);
-        if (!aur_has_lane(found, k) || !find_surface(walks, k))
+            add_emission(walks->continuation, NULL, &walks->walk[k]);
+        if (!aur_has_lane(found, k) || !visit_surface(walks, k))
             walks->alive &= ~(1u << k);
     }
 }

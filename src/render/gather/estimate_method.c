@@ -13,11 +13,13 @@ uint32_t aur_gather_trace(aur_gather_sweep *sweep, uint32_t lanes, size_t index,
                           float values[3][AUR_GATHER_LANES]) {
     float factor[AUR_PACKET_SIZE];
     sweep->lanes = lanes;
+    sweep->sums->rays.radiance = values;
     const uint32_t aimed =
         aur_gather_sweep_trace(sweep->surface_points, sweep, index, false, sweep->sums, factor);
+    aur_gather_rays_finish(sweep->surface_points->plan, &sweep->sums->rays);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-            values[c][k] = aur_has_lane(aimed, k) ? factor[k] * sweep->sums->rays.radiance[c][k] : 0.0f;
+            values[c][k] = aur_has_lane(aimed, k) ? factor[k] * values[c][k] : 0.0f;
     return aimed;
 }
 
@@ -123,12 +125,13 @@ static uint32_t trace(aur_gather_sweep *sweep, uint32_t aimed, size_t index,
                       float radiance[3][AUR_GATHER_LANES]) {
     const aur_gather_points *const surface_points = sweep->surface_points;
     aur_gather_rays *const rays = &sweep->sums->rays;
-    memset(radiance, 0, sizeof rays->radiance);
+    memset(radiance, 0, 3 * sizeof radiance[0]);
     if (aimed == 0)
         return 0;
+    rays->radiance = radiance;
     aur_gather_set_probability(surface_points, sweep, index, rays);
     aur_gather_rays_trace(surface_points->plan, surface_points->order, rays, sweep->sums->counters);
-    memcpy(radiance, rays->radiance, sizeof rays->radiance);
+    aur_gather_rays_finish(surface_points->plan, rays);
     return aimed;
 }
 

@@ -55,43 +55,34 @@ static void add_emission(const aur_gather_plan *plan, const aur_surface *surface
     aur_walk_add_emission(plan->scene, surface, path);
 }
 
-/* Paths that replace the map's estimate: they are queued until there are sixteen, or until all rays are
- * processed. */
-typedef struct waiting_paths {
-    size_t count;
-    aur_continuation_start starts[AUR_PACKET_SIZE];
-    aur_vector weights[AUR_PACKET_SIZE]; /* of the path's radiance in the ray's */
-    size_t lanes[AUR_PACKET_SIZE];
-} waiting_paths;
-
-/* Traces the queued paths and adds their radiance to the rays. */
-static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays) {
+void aur_gather_rays_finish(const aur_gather_plan *plan, aur_gather_rays *rays) {
+    aur_gather_paths *const paths = &rays->paths;
     aur_vector radiance[AUR_PACKET_SIZE];
-    if (waiting->count > 0)
-        aur_continuation_correct(&plan->continuation, waiting->count, waiting->starts, radiance);
-    for (size_t i = 0; i < waiting->count; ++i) {
-        const aur_vector added = aur_vector_multiply(waiting->weights[i], radiance[i]);
-        const size_t lane = waiting->lanes[i];
-        rays->radiance[0][lane] += added.x;
-        rays->radiance[1][lane] += added.y;
-        rays->radiance[2][lane] += added.z;
+    if (paths->count > 0)
+        aur_continuation_correct(&plan->continuation, paths->count, paths->starts, radiance);
+    for (size_t i = 0; i < paths->count; ++i) {
+        const aur_vector added = aur_vector_multiply(paths->weights[i], radiance[i]);
+        paths->to[i][0] += added.x;
+        paths->to[i][AUR_PACKET_SIZE] += added.y;
+        paths->to[i][2 * AUR_PACKET_SIZE] += added.z;
     }
-    waiting->count = 0;
+    paths->count = 0;
 }
 
-/* Adds the path whose start is the next free one to the queue. */
-static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector weight, waiting_paths *waiting,
+/* Adds the path whose start is the next free one to those that wait. */
+static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector weight,
                           aur_gather_rays *rays) {
-    waiting->weights[waiting->count] = weight;
-    waiting->lanes[waiting->count++] = lane;
-    if (waiting->count == AUR_PACKET_SIZE)
-        walk_paths(plan, waiting, rays);
+    aur_gather_paths *const paths = &rays->paths;
+    paths->weights[paths->count] = weight;
+    paths->to[paths->count++] = &rays->radiance[0][lane];
+    if (paths->count == AUR_PACKET_SIZE)
+        aur_gather_rays_finish(plan, rays);
 }
 
-/* Adds the radiance that the photon maps estimate for a surface; where a path replaces it, the path is
- * queued. */
+/* Adds the radiance that the photon maps estimate for a surface; where a path replaces it, the path
+ * waits. */
 static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const aur_surface *surface,
-                          waiting_paths *waiting, aur_gather_rays *rays, gather_chain *chain) {
+                          aur_gather_rays *rays, gather_chain *chain) {
     aur_vector radiance = {0};
     const aur_vector wo = aur_vector_scale(chain->path.ray.direction, -1.0f);
     if (plan->light.map != NULL) {
@@ -100,9 +91,9 @@ static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const
         const bool near =
             aur_continuation_is_near(&plan->continuation, chain->specular_length + hit->distance, texel.area);
         if (near || aur_continuation_is_due(&plan->continuation, hash)) {
-            waiting->starts[waiting->count] =
+            rays->paths.starts[rays->paths.count] =
                 (aur_continuation_start){*surface, wo, chain->length + 2, hash, near, texel.radiance};
-            wait_for_path(plan, chain->lane, chain->path.beta, waiting, rays);
+            wait_for_path(plan, chain->lane, chain->path.beta, rays);
         } else {
             radiance = aur_continuation_uncorrected(&plan->continuation, texel.radiance);
         }
@@ -168,7 +159,7 @@ static bool scatter(const aur_shading *shading, float distance, gather_chain *ch
 }
 
 static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const gather_hits *all,
-                                 waiting_paths *waiting, aur_gather_rays *rays, aur_counters *counters) {
+                                 aur_gather_rays *rays, aur_counters *counters) {
     const aur_scene *const scene = plan->scene;
     const aur_hit *hit = aur_has_lane(all->found, chain.lane) ? &all->hits[chain.lane] : NULL;
     const aur_surface *surface = &all->surfaces[chain.lane];
@@ -181,7 +172,7 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         const bool deeper = is_deeper(plan, chain.length);
         add_emission(plan, surface, &chain);
         if (deeper && (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0)
-            add_scattered(plan, hit, surface, waiting, rays, &chain);
+            add_scattered(plan, hit, surface, rays, &chain);
         if (samples_lights(plan, kinds, chain.length))
             add_sampled_light(plan, &shading, all, &chain);
         if (!deeper || (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 ||
@@ -216,7 +207,7 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
 /* Radiance of a diffuse surface without emission and outside instances: from the map's `texel`, or from a
  * path where the texel is near or the map is corrected. */
 static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, uint32_t element, uint32_t texel,
-                                 waiting_paths *waiting, aur_gather_rays *rays) {
+                                 aur_gather_rays *rays) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
     const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
                             query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
@@ -235,14 +226,14 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, uint3
             weight);
     const aur_ray ray = aur_packet_ray(&rays->packet, lane);
     const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-    aur_continuation_start *const start = &waiting->starts[waiting->count];
+    aur_continuation_start *const start = &rays->paths.starts[rays->paths.count];
     aur_scene_surface(plan->scene, &ray, &hit, &start->surface);
     start->view = aur_vector_scale(ray.direction, -1.0f);
     start->edges = 2;
     start->hash = aur_gather_rays_hash(rays, lane);
     start->near = near;
     start->map_radiance = map_light.radiance;
-    wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays);
+    wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, rays);
     return aur_vector_scale(map_light.caustics, weight);
 }
 
@@ -337,8 +328,6 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
     all.found = aur_gather_intersect(plan, order, &rays->packet);
     all.plain = plain_lanes(plan, &rays->packet, all.found);
     const bool has_sky = aur_scene_has_environment(plan->scene);
-    waiting_paths waiting;
-    waiting.count = 0;
     find_hits(plan, &rays->packet, &all);
     draw_lights(plan, rays, &all);
     for (size_t c = 0; c < 3; ++c)
@@ -349,7 +338,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         const bool hits = aur_has_lane(all.found, lane);
         aur_vector radiance;
         if (aur_has_lane(all.plain, lane)) {
-            radiance = plain_radiance(plan, lane, all.element[lane], all.texel[lane], &waiting, rays);
+            radiance = plain_radiance(plan, lane, all.element[lane], all.texel[lane], rays);
         } else {
             /* The density is needed only for light that is sampled too. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
@@ -362,11 +351,10 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
                                         .lane = lane,
                                         .hash = aur_gather_rays_hash(rays, lane),
                                         .specular = true};
-            radiance = chain_radiance(plan, chain, &all, &waiting, rays, counters);
+            radiance = chain_radiance(plan, chain, &all, rays, counters);
         }
         rays->radiance[0][lane] += radiance.x;
         rays->radiance[1][lane] += radiance.y;
         rays->radiance[2][lane] += radiance.z;
     }
-    walk_paths(plan, &waiting, rays);
 }

@@ -6,6 +6,14 @@
 
 enum { AUR_LONGEST_CHAIN = 16 }; /* bounces in a row that are followed */
 
+/* Paths that replace the map's estimate: they wait until there are sixteen, also of several packets. */
+typedef struct aur_gather_paths {
+    size_t count;
+    aur_continuation_start starts[AUR_PACKET_SIZE];
+    aur_vector weights[AUR_PACKET_SIZE]; /* of the path's radiance in the ray's */
+    float *to[AUR_PACKET_SIZE]; /* the ray's radiance: [0], [AUR_PACKET_SIZE], [2 * AUR_PACKET_SIZE] */
+} aur_gather_paths;
+
 /* Sixteen gather rays and what comes along them. */
 typedef struct aur_gather_rays {
     aur_packet packet;
@@ -17,16 +25,19 @@ typedef struct aur_gather_rays {
     uint64_t hash[AUR_PACKET_SIZE];
     const uint64_t *pixels;
     aur_light_reference reference[AUR_PACKET_SIZE]; /* the points that gather */
-    float radiance[3][AUR_PACKET_SIZE];             /* 0 for lanes without a ray */
+    float (*radiance)[AUR_PACKET_SIZE];             /* [3], of the caller; 0 for lanes without a ray */
+    aur_gather_paths paths;
 } aur_gather_rays;
 
 static inline uint64_t aur_gather_rays_hash(const aur_gather_rays *rays, size_t lane) {
     return aur_hash2(rays->hash[lane], rays->pixels[lane]);
 }
 
-/* Traces the packet and computes the radiance of its rays. */
+/* Traces the packet and computes the radiance of its rays, but for what comes by waiting paths. */
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
                            aur_counters *counters);
+/* Adds what comes by waiting paths to the radiance of all packets so far, which must still be in place. */
+void aur_gather_rays_finish(const aur_gather_plan *plan, aur_gather_rays *rays);
 
 /* Intersects the packet as the policy demands (packets or single rays) and returns the lanes that hit
  * something. */

@@ -46,6 +46,9 @@ static size_t set_parts(aur_gather_sweep *sweep, const aur_gather_points *surfac
     return surface_points->plan->samples_per_pattern * (splits ? AUR_GROUP_COUNT : 1);
 }
 
+/* Packets of directions whose radiance is computed before it is added: more paths wait together. */
+enum { AHEAD = 8 };
+
 /* By these samples' parts of the rule. */
 static void by_rule(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule, size_t lobe,
                     uint32_t lanes, aur_gather_sums *sums) {
@@ -53,13 +56,18 @@ static void by_rule(const aur_gather_points *surface_points, const aur_gather_lo
     aur_gather_sweep_start(surface_points, rule, lobe, lanes, &sweep, &sums->rays);
     const size_t parts = set_parts(&sweep, surface_points, aur_gather_splits(surface_points, rule));
     float sum[3][AUR_PACKET_SIZE] = {0};
-    for (size_t i = 0; i < rule->rule.count; i += parts) {
-        float factor[AUR_PACKET_SIZE];
-        if (aur_gather_sweep_trace(surface_points, &sweep, i, true, sums, factor) == 0)
-            continue;
-        for (size_t c = 0; c < 3; ++c)
-            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-                sum[c][k] += factor[k] * sums->rays.radiance[c][k];
+    for (size_t i = 0; i < rule->rule.count;) {
+        float factor[AHEAD][AUR_PACKET_SIZE], radiance[AHEAD][3][AUR_PACKET_SIZE];
+        size_t traced = 0;
+        for (; i < rule->rule.count && traced < AHEAD; i += parts) {
+            sums->rays.radiance = radiance[traced];
+            traced += aur_gather_sweep_trace(surface_points, &sweep, i, true, sums, factor[traced]) != 0;
+        }
+        aur_gather_rays_finish(surface_points->plan, &sums->rays);
+        for (size_t n = 0; n < traced; ++n)
+            for (size_t c = 0; c < 3; ++c)
+                for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                    sum[c][k] += factor[n][k] * radiance[n][c][k];
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
@@ -79,42 +87,63 @@ static void by_rule(const aur_gather_points *surface_points, const aur_gather_lo
 /* --- lobes without a formula: the rule's points of the square drive the BSDF's sampling */
 
 /* Lobes without a formula, by sampling the BSDF. */
+typedef struct sampled_packet {
+    uint32_t aimed;
+    aur_vector value[AUR_PACKET_SIZE];
+    float radiance[3][AUR_PACKET_SIZE];
+} sampled_packet;
+
+/* Direction `index` of the lanes' parts; returns those that have a ray. */
+static uint32_t trace_sampled(const aur_gather_points *surface_points, const aur_gather_sweep *sweep,
+                              size_t index, aur_gather_sums *sums, sampled_packet *packet) {
+    const aur_gather_lobe_rule *const sampled = sweep->rule;
+    const size_t first = aur_first_lane(sweep->lanes);
+    aur_gather_rays *const rays = &sums->rays;
+    float u[3] = {0.0f, 0.0f, 0.0f}, unused;
+    packet->aimed = 0;
+    aur_packet_empty(&rays->packet);
+    aur_gather_set_probability(surface_points, sweep, index, rays);
+    if (sweep->together && index + sweep->part[first] < sampled->rule.count)
+        aur_gather_rule_square(&sampled->rule, &sweep->rotations[first], index + sweep->part[first], &u[1]);
+    for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest), number = index + sweep->part[lane];
+        if (number >= sampled->rule.count)
+            continue;
+        if (!sweep->together)
+            aur_gather_rule_square(&sampled->rule, &sweep->rotations[lane], number, &u[1]);
+        u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
+        packet->aimed |=
+            (uint32_t)aur_gather_aim_draw(&surface_points->at[lane], lane, u, sampled->directions, rays,
+                                          &packet->value[lane], &unused)
+            << lane;
+    }
+    rays->radiance = packet->radiance;
+    if (packet->aimed != 0)
+        aur_gather_rays_trace(surface_points->plan, surface_points->order, rays, sums->counters);
+    return packet->aimed;
+}
+
 static void by_sampling(const aur_gather_points *surface_points, size_t lobe, uint32_t lanes,
                         aur_gather_sums *sums) {
     const aur_gather_plan *const plan = surface_points->plan;
     const aur_gather_lobe_rule *const sampled = &plan->rules.sampled;
-    aur_gather_rays *const rays = &sums->rays;
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(surface_points, sampled, lobe, lanes, &sweep, rays);
-    const size_t first = aur_first_lane(lanes), parts = set_parts(&sweep, surface_points, false);
-    for (size_t i = 0; i < sampled->rule.count; i += parts) {
-        aur_vector value[AUR_PACKET_SIZE];
-        float u[3] = {0.0f, 0.0f, 0.0f}, unused;
-        uint32_t aimed = 0;
-        aur_packet_empty(&rays->packet);
-        aur_gather_set_probability(surface_points, &sweep, i, rays);
-        if (sweep.together && i + sweep.part[first] < sampled->rule.count)
-            aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i + sweep.part[first], &u[1]);
-        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-            const size_t lane = aur_first_lane(rest), number = i + sweep.part[lane];
-            if (number >= sampled->rule.count)
-                continue;
-            if (!sweep.together)
-                aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], number, &u[1]);
-            u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
-            aimed |= (uint32_t)aur_gather_aim_draw(&surface_points->at[lane], lane, u, sampled->directions,
-                                                   rays, &value[lane], &unused)
-                     << lane;
-        }
-        if (aimed == 0)
-            continue;
-        aur_gather_rays_trace(plan, surface_points->order, rays, sums->counters);
-        for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
-            const size_t lane = aur_first_lane(rest);
-            const aur_vector incident = {rays->radiance[0][lane], rays->radiance[1][lane],
-                                         rays->radiance[2][lane]};
-            aur_gather_add(sums, surface_points, lane, aur_vector_multiply(value[lane], incident));
-        }
+    aur_gather_sweep_start(surface_points, sampled, lobe, lanes, &sweep, &sums->rays);
+    const size_t parts = set_parts(&sweep, surface_points, false);
+    for (size_t i = 0; i < sampled->rule.count;) {
+        sampled_packet packets[AHEAD];
+        size_t traced = 0;
+        for (; i < sampled->rule.count && traced < AHEAD; i += parts)
+            traced += trace_sampled(surface_points, &sweep, i, sums, &packets[traced]) != 0;
+        aur_gather_rays_finish(plan, &sums->rays);
+        for (size_t n = 0; n < traced; ++n)
+            for (uint32_t rest = packets[n].aimed; rest != 0; rest &= rest - 1) {
+                const size_t lane = aur_first_lane(rest);
+                const aur_vector incident = {packets[n].radiance[0][lane], packets[n].radiance[1][lane],
+                                             packets[n].radiance[2][lane]};
+                aur_gather_add(sums, surface_points, lane,
+                               aur_vector_multiply(packets[n].value[lane], incident));
+            }
     }
 }
 
