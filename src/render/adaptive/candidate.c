@@ -157,17 +157,6 @@ static void round_to_patterns(aur_candidate *candidate) {
             candidate->targets[i] = whole_patterns(candidate, i, more);
 }
 
-/* All pixels get as many samples as one round may give: no variance says where light is. */
-static bool raise_all(aur_candidate *candidate) {
-    bool raised = false;
-    for (size_t i = 0; i < candidate->value_count; ++i) {
-        candidate->targets[i] =
-            (uint32_t)fmin((double)AUR_MOST_GROWTH * candidate->earlier[i], AUR_SAMPLES_PER_PIXEL_MAX);
-        raised = raised || candidate->targets[i] > candidate->earlier[i];
-    }
-    return raised;
-}
-
 bool aur_candidate_is_dark(const aur_candidate *candidate) {
     return candidate->rounds > 0 && !(candidate->measure.mean > 0.0);
 }
@@ -199,12 +188,14 @@ static double power_of(power *last, double x, double exponent) {
     return last->is;
 }
 
-/* A single replica has no variances by which samples could go to some pixels. */
+/* A single replica, and dark images, have no variances by which samples could go to some pixels. */
 static bool raise_evenly(aur_candidate *candidate, double factor) {
-    const double goal = fmin(ceil(candidate->targets[0] / factor), AUR_SAMPLES_PER_PIXEL_MAX);
-    const bool raised = goal > candidate->targets[0];
-    for (size_t i = 0; i < candidate->value_count; ++i)
+    bool raised = false;
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        const double goal = fmin(ceil(candidate->targets[i] / factor), AUR_SAMPLES_PER_PIXEL_MAX);
+        raised = raised || goal > candidate->targets[i];
         candidate->targets[i] = (uint32_t)goal;
+    }
     round_to_patterns(candidate);
     return raised;
 }
@@ -219,12 +210,12 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
             candidate->targets[i] = (uint32_t)candidate->pattern_samples;
     else if (candidate->replicas.count == 1)
         candidate->begun = raise_evenly(candidate, factor);
-    else if (aur_candidate_is_dark(candidate) && candidate->bound > 0.0)
-        candidate->begun = raise_all(candidate);
     else {
         candidate->begun =
             aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
-                              AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets);
+                              AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets) ||
+            (aur_candidate_is_dark(candidate) && candidate->bound > 0.0 &&
+             raise_evenly(candidate, 1.0 / AUR_MOST_GROWTH));
         round_to_patterns(candidate);
     }
     double before = 0.0, after = 0.0;
