@@ -21,7 +21,7 @@ cmp a.exr b.exr || fail "threads changed the image"
 
 # Gone on with after an interrupt, the image is the same, whichever integrator was found to be the better one.
 "$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o whole.exr -v 2> said
-[ "$(grep -c '^aureole: candidate [a-z0-9-]*: .* rays for [0-9]* pixels, needs .*: .' said)" = 8 ] || fail "no candidates: $(cat said)"
+[ "$(grep -c '^aureole: candidate [a-z0-9-]*: .* rays for [0-9]* pixels, needs .*: .' said)" = 7 ] || fail "no candidates: $(cat said)"
 [ "$(grep -c '^aureole: candidate gather-[a-z0-9-]*: .*: taken$' said)" = 1 ] || fail "which candidate was taken: $(cat said)"
 [ "$(grep -c '^aureole: its error is .* (95 %)$' said)" = 3 ] || fail "not all measures: $(cat said)"
 grep -q 'by finalgather' said || fail "the better integrator: $(cat said)"
