@@ -138,7 +138,8 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
 static aur_result take_ranked(aur_adaptive *adaptive, size_t rank, aur_error *error) {
     const aur_race *const race = &adaptive->race;
     const size_t row = race->order[rank];
-    const double of_time = 0.4; /* without a target, bias is not worth as many photons */
+    /* Without a target, bias is not worth as many photons; but denoisers keep the noise of a single map. */
+    const double of_time = is_single(adaptive) ? 1.0 : 0.4;
     const double work = adaptive->target.rays > 0      ? (double)adaptive->target.rays
                         : adaptive->target.error > 0.0 ? race->entries[row].need
                                                        : of_time * race->work;
