@@ -27,10 +27,6 @@ bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *
            aur_light_sample_chosen(scene, &chosen, reference, rest, sample);
 }
 
-bool aur_light_chooses(const aur_scene *scene) {
-    return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
-}
-
 float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
                            const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER)

@@ -119,6 +119,10 @@ void aur_light_choice_release(aur_light_choice *choice) {
     choice->parts = NULL;
 }
 
+bool aur_light_chooses(const aur_scene *scene) {
+    return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
+}
+
 static double with_more_digits(const float u[3]) {
     uint32_t bits[2];
     memcpy(bits, &u[1], sizeof bits);
