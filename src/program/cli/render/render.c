@@ -403,7 +403,7 @@ static const char *conflict(const cli_call *call, const render_command *command)
         return checkpoint;
     if (command->target.bias > 0.0 && !cli_is_target(&command->target))
         return "render: '--bias' needs '--error', '--time', '--rays' or '--rounds'";
-    if (cli_given(call, "error-measure") != NULL && !cli_is_target(&command->target))
+    if (command->target.measure != AUR_ERROR_MEASURE_RELATIVE && !cli_is_target(&command->target))
         return "render: '--error-measure' needs '--error', '--time', '--rays' or '--rounds'";
     if (!cli_is_target(&command->target))
         return command->target.error_map ? "render: '--error-map' needs '--error', '--time' or '--rays'"
