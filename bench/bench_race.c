@@ -24,8 +24,7 @@ typedef struct outcome {
     double needs[AUR_RACE_ROWS];
 } outcome;
 
-/* An image to the target with an integrator, or with the race (NULL), by at most so many rays (0: no limit).
- */
+/* Renders to the target with an integrator, or with the race (NULL), by at most `most` rays (0: no limit). */
 static bool run_to(const aur_scene *scene, const char *integrator, const target *goal, double most,
                    outcome *found) {
     aur_render_options render = {.size = sizeof render};

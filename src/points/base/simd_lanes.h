@@ -94,6 +94,12 @@ static inline aur_reals aur_lanes_from_signed(aur_words x) {
     return y;
 #endif
 }
+static inline aur_reals aur_lanes_load(const double *from) {
+    aur_reals values;
+    memcpy(&values, from, sizeof values);
+    return values;
+}
+
 /* Writes the lanes; `stream` bypasses the caches, if the processor supports it and `to` is aligned to the
  * vector. */
 static inline void aur_lanes_put(double *to, aur_reals values, bool stream) {

@@ -8,12 +8,6 @@
 /* The number of vectors computed together, to hide latency. */
 enum { VECTORS = 4, GROUP = VECTORS * AUR_LANES };
 
-static inline aur_reals load(const double *from) {
-    aur_reals vector;
-    memcpy(&vector, from, sizeof vector);
-    return vector;
-}
-
 static inline void put_group(const aur_reals values[VECTORS], size_t count, double *out) {
     if (count >= GROUP) {
         for (unsigned v = 0; v < VECTORS; ++v)
@@ -51,7 +45,7 @@ static void multiples(aur_multiples *run, size_t count, double *out) {
     const aur_reals jump = zero + run->jump;
     aur_reals positions[VECTORS];
     for (unsigned v = 0; v < VECTORS; ++v)
-        positions[v] = load(run->positions + v * AUR_LANES);
+        positions[v] = aur_lanes_load(run->positions + v * AUR_LANES);
     for (size_t i = 0; i < count; i += GROUP) {
         aur_reals values[VECTORS];
         for (unsigned v = 0; v < VECTORS; ++v) {
@@ -71,9 +65,10 @@ static void quotients(double base, const double *numerators, double divisor, siz
     size_t i = 0;
     if (divisor <= 0x1p48)
         for (; i + AUR_LANES <= count; i += AUR_LANES)
-            aur_lanes_put(out + i,
-                          aur_lanes_quotient(base + load(numerators + i), zero + divisor, zero + inverse),
-                          false);
+            aur_lanes_put(
+                out + i,
+                aur_lanes_quotient(base + aur_lanes_load(numerators + i), zero + divisor, zero + inverse),
+                false);
     for (; i < count; ++i)
         out[i] = (base + numerators[i]) / divisor;
 }
@@ -163,9 +158,9 @@ static void pairs(size_t count, const double *x, const double *y, bool stream, d
     size_t i = 0;
     if (stream)
         for (; i + AUR_LANES <= count; i += AUR_LANES)
-            aur_lanes_store2(out + 2 * i, load(x + i), load(y + i), true);
+            aur_lanes_store2(out + 2 * i, aur_lanes_load(x + i), aur_lanes_load(y + i), true);
     for (; i + AUR_LANES <= count; i += AUR_LANES)
-        aur_lanes_store2(out + 2 * i, load(x + i), load(y + i), false);
+        aur_lanes_store2(out + 2 * i, aur_lanes_load(x + i), aur_lanes_load(y + i), false);
     for (; i < count; ++i) {
         out[2 * i] = x[i];
         out[2 * i + 1] = y[i];

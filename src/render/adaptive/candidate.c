@@ -10,7 +10,8 @@
 #include "render/film/film.h"
 #include "render/film/integrator.h"
 
-/* An image is black if none of so many samples has met light: fewer miss small lamps behind glass. */
+/* Samples without light after which an image is black: light that one of 8,192 samples meets is missed by all
+ * with probability exp(-8). */
 static const double DARK_SAMPLES = 65536.0;
 
 /* Lamps that the camera sees, as the integrator shows them. */

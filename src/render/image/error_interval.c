@@ -101,8 +101,8 @@ static spread_estimate spread_of_blocks(const aur_deviations *sum, double one) {
     return (spread_estimate){sum->blocks, (one + 2.0) * sum->blocks * sum->blocks / sum->square_blocks};
 }
 
-/* Those of pixels and cells are nearly squares of variances with n degrees, whose relative variance is
- * 8 (n + 3) / (n (n + 2)). Those that share samples deviate together. */
+/* The estimates by pixels and cells are nearly squares of variances with n degrees, whose relative variance
+ * is 8 (n + 3) / (n (n + 2)). Pixels that share samples deviate together. */
 static spread_estimate spread_of_variances(double overlap, double n, double sum, double squares) {
     return (spread_estimate){overlap * sum,
                              (n + 4.0) * (n + 6.0) / (4.0 * (n + 3.0)) * sum * sum / (overlap * squares)};
@@ -122,8 +122,8 @@ static spread_estimate find_spread(const aur_deviations *sum, size_t count) {
     return found;
 }
 
-/* tr W for which the mean of all images has the variance that those of one image and of the mean of all but
- * one lead to, as a power of their number. */
+/* tr W at which the mean of all images has its extrapolated variance: a power of the number of images through
+ * the variances of one image and of the mean of all but one. */
 static double trace_of_mean(const aur_deviations *sum, size_t count) {
     const double n = (double)(count - 1), ratio = sum->others / (n * sum->trace);
     return (double)count * sum->trace * pow(ratio, log((double)count) / log(n));

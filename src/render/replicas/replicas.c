@@ -213,6 +213,7 @@ typedef struct block_sums {
     aur_weighing weighing;
     aur_replica_measure *measure;
     const aur_pixel_measure *pixels;
+    bool linear; /* the measure is */
     aur_gram gram;
 } block_sums;
 
@@ -225,7 +226,8 @@ static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
     find_deviations(count, replicas->pixel_count, block->light + pixel, means, d);
     for (size_t channel = 0; channel < 3; ++channel)
         block->measure->mean += means[channel];
-    memcpy(single, d, sizeof d);
+    if (!block->linear)
+        memcpy(single, d, sizeof d);
     aur_replicas_weigh(count, block->weighing, pixel, means, d);
     find_gram(count, d, &gram);
     if (block->pixels != NULL)
@@ -233,14 +235,12 @@ static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
     double others = 0.0;
     for (size_t r = 0; r < count; ++r)
         others += gram.products[r][r];
-    const bool linear =
-        block->weighing.weights == NULL || block->weighing.measure != AUR_ERROR_MEASURE_DISPLAY;
-    if (!linear) {
+    if (!block->linear) {
         weigh_steps(count, block->weighing, pixel, 1.0, means, single);
         find_gram(count, single, &gram);
     }
-    const double spread =
-        aur_deviations_add_pixel(&block->measure->deviations, &gram, linear ? d : single, others, cell);
+    const double spread = aur_deviations_add_pixel(&block->measure->deviations, &gram,
+                                                   block->linear ? d : single, others, cell);
     if (block->pixels != NULL)
         block->pixels->spreads[pixel] = spread;
     for (size_t r = 0; r < count; ++r)
@@ -271,11 +271,13 @@ void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3]
                           aur_replica_measure *measure, const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
+    const bool linear = weighing.weights == NULL || weighing.measure != AUR_ERROR_MEASURE_DISPLAY;
     *measure = (aur_replica_measure){
         .deviations = {.overlap = film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0}};
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            block_sums block = {replicas, light, weighing, measure, pixels, {.count = replicas->count}};
+            block_sums block = {
+                replicas, light, weighing, measure, pixels, linear, {.count = replicas->count}};
             const pixel_range range = cell_of(layout, BLOCK, column, row);
             measure_block(&block, layout, &range);
         }

@@ -2,11 +2,6 @@
 
 #include "render/scene/scene_data.h"
 
-static aur_light_reference reference_of(const aur_light_references *references, size_t lane) {
-    return (aur_light_reference){aur_lane_vector(references->position, lane),
-                                 aur_lane_vector(references->normal, lane)};
-}
-
 /* All lanes by vector code, for a light that they chose with the same probability; false: not supported. */
 static bool sample_together(const aur_emitter *emitter, uint32_t lanes,
                             const aur_light_references *references, const float *u, const float *v,
@@ -24,12 +19,6 @@ typedef struct light_choices {
     aur_chosen_light lights[AUR_PACKET_SIZE];
     float rest[AUR_PACKET_SIZE][3];
 } light_choices;
-
-/* Returns the lanes that have a light. */
-static uint32_t choose_lights(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
-                              const float *choice, const float *u, const float *v, light_choices *choices) {
-    return aur_light_choose_lanes(scene, lanes, references, choice, u, v, choices->lights, choices->rest);
-}
 
 static void set_unlit(uint32_t lanes, aur_light_lanes *lights) {
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
@@ -54,7 +43,7 @@ static uint32_t sample_far(const aur_scene *scene, uint32_t lanes, const aur_lig
 
 static void sample_one(const aur_scene *scene, size_t lane, const aur_light_references *references,
                        const light_choices *choices, aur_light_lanes *lights) {
-    const aur_light_reference reference = reference_of(references, lane);
+    const aur_light_reference reference = aur_light_reference_at(references, lane);
     aur_light_sample one;
     if (!aur_light_sample_chosen(scene, &choices->lights[lane], &reference, choices->rest[lane], &one))
         one = (aur_light_sample){0};
@@ -91,7 +80,8 @@ static uint32_t sample_kind(uint32_t lanes, const aur_light_references *referenc
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
     light_choices choices;
-    const uint32_t chosen = choose_lights(scene, lanes, references, choice, u, v, &choices);
+    const uint32_t chosen =
+        aur_light_choose_lanes(scene, lanes, references, choice, u, v, choices.lights, choices.rest);
     const uint32_t far = sample_far(scene, chosen, references, &choices, u, v, lights);
     const uint32_t together = sample_kind(chosen & ~far, references, &choices, u, v, lights);
     for (uint32_t rest = chosen & ~far & ~together; rest != 0; rest &= rest - 1)
@@ -132,7 +122,8 @@ void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_li
         return;
     }
     light_choices choices;
-    uint32_t rest = choose_lights(scene, lanes, references, choice, u, v, &choices);
+    uint32_t rest =
+        aur_light_choose_lanes(scene, lanes, references, choice, u, v, choices.lights, choices.rest);
     set_unlit(lanes & ~rest, lights);
     while (rest != 0) {
         const aur_emitter *const first = choices.lights[__builtin_ctz(rest)].emitter;

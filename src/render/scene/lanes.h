@@ -27,6 +27,13 @@ typedef struct aur_light_references {
     const aur_lane_vectors *position, *normal;
 } aur_light_references;
 
+/* A single one. */
+static inline aur_light_reference aur_light_reference_at(const aur_light_references *references,
+                                                         size_t lane) {
+    return (aur_light_reference){aur_lane_vector(references->position, lane),
+                                 aur_lane_vector(references->normal, lane)};
+}
+
 /* aur_light_sample_direct of sixteen points. */
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;

@@ -68,26 +68,28 @@ static void list_lit(aur_light_choice *choice) {
     choice->lit_count = lit <= AUR_FEW_LIGHTS ? lit : 0;
 }
 
-/* The weights of the items: those with power, far lights and the tree, share three quarters whatever their
- * power is. Powers of far lights count what walls keep out: in proportion to them, a lamp inside a room would
- * be drawn too rarely. Environments get half, because directions by the BSDF find them as well. */
-static void set_weights(const aur_scene *scene, size_t items, double *weights, double *powers) {
+/* The weights of the items, which are far lights and the tree. A quarter goes by power. The rest is shared
+ * evenly by the items with power, because the powers of far lights include what walls keep out: light sources
+ * inside a room would be chosen too rarely. Environments get half a share, because BSDF sampling finds them
+ * too. `shares` is 0 before. */
+static void set_weights(const aur_scene *scene, size_t items, double *weights, double *shares) {
     const size_t count = scene->emitter_count;
-    double power = 0.0, shares = 0.0;
+    double power = 0.0, sum = 0.0;
     for (size_t i = 0; i < count; ++i) {
         const aur_emitter *const emitter = scene->emitters[i];
         const size_t item = emitter->first_leaf == AUR_WHOLE_LIGHT ? i : count;
-        powers[item] += emitter->power;
+        shares[item] += emitter->power;
         weights[item] += emitter->power * weight_of(emitter);
     }
     for (size_t i = 0; i < items; ++i) {
-        const bool far = i < count && scene->emitters[i]->descriptor->radiance_from != NULL;
+        const bool environment = i < count && scene->emitters[i]->descriptor->radiance_from != NULL;
+        const double weight = shares[i] > 0.0 ? weights[i] / shares[i] : 0.0; /* sampling_weight */
         power += weights[i];
-        powers[i] = powers[i] > 0.0 ? (far ? 0.5 : 1.0) * weights[i] / powers[i] : 0.0;
-        shares += powers[i];
+        shares[i] = environment ? 0.5 * weight : weight;
+        sum += shares[i];
     }
     for (size_t i = 0; i < items && power > 0.0; ++i)
-        weights[i] = 0.25 * weights[i] / power + 0.75 * powers[i] / shares;
+        weights[i] = 0.25 * weights[i] / power + 0.75 * shares[i] / sum;
 }
 
 aur_result aur_light_choice_create(aur_scene *scene, aur_error *error) {
@@ -176,11 +178,6 @@ bool aur_light_choose(const aur_scene *scene, const aur_light_reference *referen
 
 /* --- by lanes */
 
-static aur_light_reference reference_of(const aur_light_references *references, size_t lane) {
-    return (aur_light_reference){aur_lane_vector(references->position, lane),
-                                 aur_lane_vector(references->normal, lane)};
-}
-
 enum { FEW_LANES = 4 }; /* fewer choose one by one */
 
 /* A leaf for each lane that chose the tree; returns those that have one. At the root, which all visit, the
@@ -195,7 +192,7 @@ static uint32_t choose_leaves(const aur_scene *scene, uint32_t lanes, const aur_
         tree->kernels->choose(&tree->children, root->first, root->count, references, draws);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        const aur_light_reference reference = reference_of(references, k);
+        const aur_light_reference reference = aur_light_reference_at(references, k);
         double product = together ? draws->probability[k] : 1.0;
         const uint32_t target = together ? tree->targets[root->first + (size_t)draws->index[k]] : 0;
         uint32_t leaf;
@@ -249,7 +246,7 @@ uint32_t aur_light_choose_lanes(const aur_scene *scene, uint32_t lanes,
         return choose_together(scene, lanes, references, choice, u, v, chosen, numbers);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        const aur_light_reference reference = reference_of(references, k);
+        const aur_light_reference reference = aur_light_reference_at(references, k);
         found |= (uint32_t)aur_light_choose(scene, &reference, numbers[k], &chosen[k]) << k;
     }
     return found;

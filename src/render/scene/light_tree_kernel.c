@@ -72,12 +72,6 @@ static void children_importance(const aur_light_children *given, uint32_t first,
 
 /* --- choices of sixteen lanes, without branches: those on random numbers are mispredicted */
 
-static inline aur_reals read(const double *from) {
-    aur_reals values;
-    memcpy(&values, from, sizeof values);
-    return values;
-}
-
 /* In [0,1), whatever the rounding. */
 static inline aur_reals remainder_of(aur_reals above, aur_reals width) {
     const aur_reals rest = above / width, most = aur_lanes_all(0x1.fffffffffffffp-1);
@@ -100,11 +94,11 @@ static void choose_children(const aur_light_children *given, uint32_t first, uin
     for (size_t k = 0; k < AUR_PACKET_SIZE; k += AUR_LANES) {
         aur_reals total = aur_lanes_all(0.0), sum = total, index = total, below = total, chosen = total;
         for (size_t c = 0; c < count; ++c)
-            total += read(&importance[c][k]);
-        const aur_reals target = read(&draws->rest[k]) * total;
+            total += aur_lanes_load(&importance[c][k]);
+        const aur_reals target = aur_lanes_load(&draws->rest[k]) * total;
         /* The last child that begins at or before the target. */
         for (size_t c = 0; c < count; ++c) {
-            const aur_reals value = read(&importance[c][k]);
+            const aur_reals value = aur_lanes_load(&importance[c][k]);
             const aur_words begins = (aur_words)(value > 0.0) & (aur_words)(target >= sum);
             index = aur_lanes_choose(begins, aur_lanes_all((double)c), index);
             chosen = aur_lanes_choose(begins, value, chosen);
@@ -122,7 +116,7 @@ static void choose_children(const aur_light_children *given, uint32_t first, uin
 
 static void choose_items(size_t count, const double *sums, aur_light_draws *draws) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; k += AUR_LANES) {
-        const aur_reals target = read(&draws->rest[k]) * sums[count];
+        const aur_reals target = aur_lanes_load(&draws->rest[k]) * sums[count];
         aur_reals index = aur_lanes_all(0.0), low = aur_lanes_all(sums[0]), high = aur_lanes_all(sums[1]);
         for (size_t i = 1; i < count; ++i) {
             const aur_words begins = (aur_words)(sums[i] <= target);

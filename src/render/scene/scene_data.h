@@ -48,7 +48,7 @@ enum { AUR_FEW_LIGHTS = 16 };
 
 /* Selection of lights for aur_light_sample_direct (light_choice.c). */
 typedef struct aur_light_choice {
-    aur_distribution emitters; /* by power; 0 for lights in the tree, which is the last item */
+    aur_distribution emitters; /* 0 for lights in the tree, which is the last item */
     aur_light_tree tree;       /* lights with bounds; node_count 0: at most one such light */
     aur_light_part *parts;     /* of the tree's lights */
     float tree_probability;

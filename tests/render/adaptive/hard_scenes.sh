@@ -41,7 +41,7 @@ done
 check point 'has an error of' --error 10% --width 1 --height 1
 check point 'has an error of' --error 10% --width 2 --height 1 -D stddev=3
 check point 'has an error of' --error 10% --width 4 --height 3 --filter lanczos
-# A lamp in glass that only rare paths meet: a few dark samples of a pixel are no black image.
+# A light source in glass that few paths meet: an image is not black after a few dark samples.
 scene glass "$room<shape type='sphere'><point name='center' x='0' y='0' z='.5'/><float name='radius' value='.3'/><bsdf type='dielectric'/></shape><shape type='sphere'><point name='center' x='0' y='0' z='.5'/><float name='radius' value='.05'/><emitter type='area'><rgb name='radiance' value='100'/></emitter></shape>"
 check glass 'has an error of' --error 50% --width 1 --height 1
 # Light below the smallest normal float ends with its first bounce.

@@ -378,7 +378,6 @@ static void test_of_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_holds_what_it_says),
-
                                        cmocka_unit_test(test_of_one_value),
                                        cmocka_unit_test(test_of_clipped_values),
                                        cmocka_unit_test(test_holds_where_pixels_share_samples),

@@ -490,9 +490,9 @@ static void lights_without_area_give_no_light(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Shares of a sun, a sky and two lamps of the tree, whose power is 3e-6 of all: a quarter by power, the rest
- * as 2 to 1 to 2, times the sampling weights. */
-static void small_lamps_are_drawn_under_a_sky(void **state) {
+/* Shares of a sun, a sky and two area lights in the tree, whose power is 3e-6 of all: a quarter by power, the
+ * rest as 2 to 1 to 2, times the sampling weights. */
+static void small_lights_are_chosen_under_a_sky(void **state) {
     (void)state;
     static const char *const weights[] = {"", "<float name='sampling_weight' value='3'/>"};
     for (size_t i = 0; i < 2; ++i) {
@@ -558,7 +558,7 @@ int main(void) {
         cmocka_unit_test(particles_carry_the_power),
         cmocka_unit_test(emits_on_one_side),
         cmocka_unit_test(lights_without_area_give_no_light),
-        cmocka_unit_test(small_lamps_are_drawn_under_a_sky),
+        cmocka_unit_test(small_lights_are_chosen_under_a_sky),
         cmocka_unit_test(closed_rooms_stay_closed),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
