@@ -25,7 +25,7 @@ import subprocess
 import tempfile
 
 import interior
-from interior import box, mesh, picture, rgb, shape, two_sided, wall
+from interior import bitmap_texture, box, mesh, rgb, shape, two_sided, wall
 
 MOST_SAMPLES = 16384
 
@@ -109,10 +109,10 @@ def room(seed):
     depth, height, kind = dice.uniform(4, 6), dice.uniform(2.5, 3.2), ("lamps", "courtyard", "blinds")[seed % 3]
     plain = two_sided(f'<bsdf type="diffuse">{rgb("reflectance", [dice.uniform(.4, .85) for _ in range(3)])}</bsdf>')
     pale = two_sided('<bsdf type="diffuse"><rgb name="reflectance" value=".75, .74, .7"/></bsdf>')
-    board = two_sided(f'<bsdf type="diffuse">{picture("reflectance", "wood.png")}</bsdf>')
+    board = two_sided(f'<bsdf type="diffuse">{bitmap_texture("reflectance", "wood.png")}</bsdf>')
     metal = two_sided('<bsdf type="roughconductor"><string name="material" value="Cr"/><float name="alpha" value=".25"/></bsdf>')
-    gloss = (f'<float name="alpha" value="{dice.uniform(.06, .3):.3f}"/>' + picture("diffuse_reflectance", "wood.png", 3))
-    black = two_sided(f'<bsdf type="diffuse">{picture("reflectance", "corner.png")}</bsdf>')
+    gloss = (f'<float name="alpha" value="{dice.uniform(.06, .3):.3f}"/>' + bitmap_texture("diffuse_reflectance", "wood.png", 3))
+    black = two_sided(f'<bsdf type="diffuse">{bitmap_texture("reflectance", "corner.png")}</bsdf>')
     text, width = blinds(dice, depth, height, pale) if kind == "blinds" else ("", dice.uniform(4, 6))
     if kind != "blinds":
         text += wall((depth, height), '<rotate y="1" angle="-90"/>', (width / 2, height / 2, 0), pale)
