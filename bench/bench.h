@@ -19,11 +19,12 @@
 #include <stddef.h>
 
 typedef struct bench_options {
-    bool quick;       /* a smoke test: little work, few pairs, meaningless numbers */
-    size_t pairs;     /* number of paired measurements of subject and limit */
-    double seconds;   /* CPU seconds: lower bound of one measurement */
-    size_t threads;   /* for scaling benches: the hardware threads, at least 1 */
-    const char *only; /* of benches with rows of scenes: only names that contain this; NULL: all */
+    bool quick;        /* a smoke test: little work, few pairs, meaningless numbers */
+    size_t pairs;      /* number of paired measurements of subject and limit */
+    double seconds;    /* CPU seconds: lower bound of one measurement */
+    size_t threads;    /* for scaling benches: the hardware threads, at least 1 */
+    const char *only;  /* of benches with rows of scenes: only names that contain this; NULL: all */
+    const char *scene; /* of the bench adaptive: a scene file instead of its rows; NULL: none */
 } bench_options;
 
 /* Repeatable work. run() must pass its result to bench_keep, so that the compiler cannot remove the work. */

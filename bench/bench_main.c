@@ -1,5 +1,5 @@
-/* aureole-bench list | NAME... [--quick] [--isa SET] [--only TEXT]. To add a bench, add one file and one line
- * here. */
+/* aureole-bench list | NAME... [--quick] [--isa SET] [--only TEXT] [--scene FILE]. To add a bench, add one
+ * file and one line here. */
 #define _DEFAULT_SOURCE /* setenv */
 #include <getopt.h>
 #include <stdio.h>
@@ -85,13 +85,15 @@ static void print_list(void) {
 
 static void print_help(void) {
     puts("usage: aureole-bench list\n"
-         "       aureole-bench all|NAME... [--quick] [--isa portable|avx2|avx512] [--only TEXT]\n"
+         "       aureole-bench all|NAME... [--quick] [--isa portable|avx2|avx512] [--only TEXT] [--scene "
+         "FILE]\n"
          "  --quick  small work, to see whether all runs: figures of no worth\n"
          "  --isa    instructions that our kernels and Embree's may use, as if the processor had no wider "
          "ones;\n"
          "           else AUREOLE_ISA's, or all it has. What a bench used is printed behind its name\n"
          "  --only   of adaptive, adaptive-calibration and adaptive-speed, the rooms or scenes with TEXT in "
          "their names\n"
+         "  --scene  of adaptive: a scene file instead\n"
          "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
 }
 
@@ -130,11 +132,10 @@ static bool run(const bench *chosen, const bench_options *options) {
 }
 
 int main(int argc, char **argv) {
-    static const struct option long_options[] = {{"quick", no_argument, NULL, 'q'},
-                                                 {"isa", required_argument, NULL, 'i'},
-                                                 {"only", required_argument, NULL, 'o'},
-                                                 {"help", no_argument, NULL, 'h'},
-                                                 {NULL, 0, NULL, 0}};
+    static const struct option long_options[] = {
+        {"quick", no_argument, NULL, 'q'},      {"isa", required_argument, NULL, 'i'},
+        {"only", required_argument, NULL, 'o'}, {"scene", required_argument, NULL, 's'},
+        {"help", no_argument, NULL, 'h'},       {NULL, 0, NULL, 0}};
     bench_options options = {.pairs = 15, .seconds = 0.05, .threads = aur_parallel_threads(0)};
     for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
         if (option == 'h') {
@@ -148,6 +149,10 @@ int main(int argc, char **argv) {
         }
         if (option == 'o') {
             options.only = optarg;
+            continue;
+        }
+        if (option == 's') {
+            options.scene = optarg;
             continue;
         }
         if (option != 'q')

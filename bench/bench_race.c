@@ -1,5 +1,5 @@
-/* Cost of choosing the integrator for a target error, in rooms generated from seeds: CPU time of the chosen
- * candidate and of the whole request, over the best candidate's. */
+/* Cost of choosing the integrator for a target error, in rooms generated from seeds and in bundled scenes, or
+ * in one scene file: CPU time of the chosen candidate and of the whole request, over the best candidate's. */
 #include <aureole-render/adaptive.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +11,10 @@
 #include "room.h"
 
 enum { FIRST_ROOM = 101, ROOMS = 24, QUICK_ROOMS = 2 };
+
+static const char *const scenes[] = {
+    "cornell-box/cornell-box.xml", "cornell-box/figure.xml", "room/room.xml",    "parade/parade.xml",
+    "plates/plates.xml",           "statue/statue.xml",      "sphere/sphere.xml"};
 
 typedef struct target {
     aur_error_measure measure;
@@ -95,7 +99,7 @@ static void print_rows(const outcome *whole, const outcome rows[AUR_RACE_ROWS]) 
     printf("\n");
 }
 
-static bool run_room(const aur_scene *scene, uint64_t seed, const target *goal, ratios *sum) {
+static bool run_scene(const aur_scene *scene, const char *name, const target *goal, ratios *sum) {
     outcome whole, rows[AUR_RACE_ROWS];
     if (!run_to(scene, NULL, goal, 0.0, &whole) || !run_rows(scene, goal, whole.row, rows))
         return false;
@@ -105,7 +109,7 @@ static bool run_room(const aur_scene *scene, uint64_t seed, const target *goal, 
             best = i;
     const double choice = rows[whole.row].seconds / rows[best].seconds;
     const double all = whole.seconds / rows[best].seconds;
-    printf("  %4llu  %-8s %4.0f %%  %-16s  %-16s %8.2f  %6.2f  %6.2f\n", (unsigned long long)seed,
+    printf("  %-27s  %-8s %4.0f %%  %-16s  %-16s %8.2f  %6.2f  %6.2f\n", name,
            aur_error_measure_name(goal->measure), 100.0 * goal->error, aur_race_name(whole.row),
            aur_race_name(best), rows[best].seconds, choice, all);
     print_rows(&whole, rows);
@@ -118,26 +122,58 @@ static bool run_room(const aur_scene *scene, uint64_t seed, const target *goal, 
     return true;
 }
 
-static bool run(const bench_options *options) {
+/* By two measures; `scene` NULL: it was not loaded. */
+static void run_loaded(aur_scene *scene, const char *name, const bench_options *options, ratios *sum) {
+    bool good = scene != NULL;
+    for (int m = 0; m < (options->quick ? 1 : 2) && good; ++m)
+        good = run_scene(scene, name, &(target){(aur_error_measure)m, options->quick ? 0.1 : 0.05}, sum);
+    if (!good)
+        printf("  %-27s  failed\n", name);
+    aur_scene_destroy(scene);
+}
+
+static bool is_left_out(const bench_options *options, const char *name) {
+    return options->only != NULL && strstr(name, options->only) == NULL;
+}
+
+static void run_rooms(const bench_options *options, ratios *sum) {
     static bench_room room;
-    ratios sum = {.count = 0};
-    printf(
-        "  room  measure   error  chosen            best               CPU s  over it the chosen one and "
-        "the whole request;\n        below, CPU times relative to the chosen one's, and in brackets as the "
-        "race predicted\n");
     for (uint64_t seed = FIRST_ROOM; seed < FIRST_ROOM + (options->quick ? QUICK_ROOMS : ROOMS); ++seed) {
         char name[24];
         snprintf(name, sizeof name, "%llu", (unsigned long long)seed);
-        if (options->only != NULL && strstr(name, options->only) == NULL)
+        if (is_left_out(options, name))
             continue;
         aur_scene *scene = NULL;
         bench_room_make(seed, &room);
-        bool good = aur_scene_load_memory("room.xml", room.used, room.text, NULL, &scene, NULL) == AUR_OK;
-        for (int m = 0; m < (options->quick ? 1 : 2) && good; ++m)
-            good = run_room(scene, seed, &(target){(aur_error_measure)m, options->quick ? 0.1 : 0.05}, &sum);
-        if (!good)
-            printf("  %4s  failed\n", name);
-        aur_scene_destroy(scene);
+        aur_scene_load_memory("room.xml", room.used, room.text, NULL, &scene, NULL);
+        run_loaded(scene, name, options, sum);
+    }
+}
+
+static void run_file(const char *path, const char *name, const bench_options *options, ratios *sum) {
+    aur_scene *scene = NULL;
+    aur_error error;
+    if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
+        printf("  %s\n", error.message);
+    run_loaded(scene, name, options, sum);
+}
+
+static bool run(const bench_options *options) {
+    ratios sum = {.count = 0};
+    printf(
+        "  room or scene                measure   error  chosen            best               CPU s  over it "
+        "the chosen one and the whole request;\n        below, CPU times relative to the chosen one's, and "
+        "in brackets as the race predicted\n");
+    if (options->scene != NULL)
+        run_file(options->scene, options->scene, options, &sum);
+    else
+        run_rooms(options, &sum);
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0] && options->scene == NULL && !options->quick;
+         ++i) {
+        char path[512];
+        snprintf(path, sizeof path, AUR_SOURCE_DIR "/scenes/%s", scenes[i]);
+        if (!is_left_out(options, scenes[i]))
+            run_file(path, scenes[i], options, &sum);
     }
     if (sum.count == 0)
         return false;
