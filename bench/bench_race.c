@@ -91,7 +91,7 @@ static void print_rows(const outcome *whole, const outcome rows[AUR_RACE_ROWS]) 
     const size_t chosen = whole->row;
     printf("       ");
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
-        printf(" %s %s%.2f", aur_race_name(i), rows[i].met ? "" : ">",
+        printf(" %s %s%.2f", aur_race_rows[i].name, rows[i].met ? "" : ">",
                rows[i].seconds / rows[chosen].seconds);
         if (whole->needs[i] > 0.0)
             printf(" (%.2f)", whole->needs[i] / whole->needs[chosen]);
@@ -110,8 +110,8 @@ static bool run_scene(const aur_scene *scene, const char *name, const target *go
     const double choice = rows[whole.row].seconds / rows[best].seconds;
     const double all = whole.seconds / rows[best].seconds;
     printf("  %-27s  %-8s %4.0f %%  %-16s  %-16s %8.2f  %6.2f  %6.2f\n", name,
-           aur_error_measure_name(goal->measure), 100.0 * goal->error, aur_race_name(whole.row),
-           aur_race_name(best), rows[best].seconds, choice, all);
+           aur_error_measure_name(goal->measure), 100.0 * goal->error, aur_race_rows[whole.row].name,
+           aur_race_rows[best].name, rows[best].seconds, choice, all);
     print_rows(&whole, rows);
     fflush(stdout);
     sum->choice += log(choice);

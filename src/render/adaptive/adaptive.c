@@ -355,7 +355,7 @@ aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index
     if (index >= AUR_RACE_ROWS || adaptive->race.order_count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown candidate %zu", index);
     const aur_race_entry *const entry = &adaptive->race.entries[index];
-    aur_adaptive_candidate local = {.name = aur_race_name(index),
+    aur_adaptive_candidate local = {.name = aur_race_rows[index].name,
                                     .taken = index == adaptive->row,
                                     .pixels = entry->blocks * AUR_BLOCK_PIXELS,
                                     .rays = entry->rays,

@@ -15,16 +15,9 @@ enum { PIXELS = AUR_BLOCK_PIXELS, MAP_PHOTONS = 50000, RESAMPLINGS = 300, BRIEF_
  * twice the first blocks cost a twentieth more. */
 static const aur_race_limits default_limits = {
     .first_blocks = 9, .first_part = 0.2, .part = 0.05, .confidence = 0.95};
-/* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
-static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
-/* A candidate's shading takes time without a ray: 1.13 to 1.22 times a plain path's in four scenes. */
-static const double CANDIDATES_PRICE = 1.2;
 /* The shortest time limit for which a race is worthwhile, for each replica of the image, and the shortest for
  * one of all first blocks. */
 static const double LEAST_SECONDS = 0.075, LONG_SECONDS = 2.0;
-/* Samples per pixel that a replica of each row renders: whole patterns. */
-static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4, 6, 2};
-
 static void drop(aur_race_entry *entry, const char *reason) {
     snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
 }
@@ -73,8 +66,7 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
 
 /* Films whose pixels share samples have separate cells, for all candidates equally. */
 static bool reads_neighbours(size_t row, const aur_replicas *replicas) {
-    return (row == AUR_RACE_SHARED || row == AUR_RACE_FOUR) &&
-           aur_render_film(replicas->renders[0])->layout.cell == 0;
+    return aur_race_rows[row].shares && aur_render_film(replicas->renders[0])->layout.cell == 0;
 }
 
 /* Sets targets for a block's pixels, and for those that are at most `border` away from it. */
@@ -105,7 +97,7 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_er
     const uint64_t prepared = aur_rays_traced - before;
     const bool around = result == AUR_OK && reads_neighbours(row, &replicas);
     for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b)
-        set_targets(race, b, around ? 1 : 0, samples_of[row], targets);
+        set_targets(race, b, around ? 1 : 0, aur_race_rows[row].samples, targets);
     size_t done;
     if (result == AUR_OK)
         result = aur_replicas_step(&replicas, targets, 0, &done, race->cancelled, error);
@@ -163,24 +155,20 @@ static double root_variance(const aur_race *race, size_t row, size_t block, cons
         for (size_t i = 0; i < 3 * race->replica_count; ++i)
             sum += d[i % 3][i / 3] * d[i % 3][i / 3];
     }
-    return sqrt(sum * (double)samples_of[row] / (others * (double)pixel_count));
+    return sqrt(sum * (double)aur_race_rows[row].samples / (others * (double)pixel_count));
 }
 
 /* Work per sample. */
 static double price(const aur_race_entry *entry, size_t row) {
-    const double factor = aur_race_gathers(row)        ? GATHER_PRICE
-                          : row == AUR_RACE_CANDIDATES ? CANDIDATES_PRICE
-                                                       : 1.0;
-    return entry->rays / entry->samples * factor;
+    return entry->rays / entry->samples * aur_race_rows[row].price;
 }
 
 /* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
 static double least_work(const aur_race *race, size_t row) {
-    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0, 1.0, 1.0};
     const aur_race_entry *const entry = &race->entries[row];
     const double map = aur_race_gathers(row) ? aur_race_least_map(race->image_replicas) : 0.0;
     const double pixels = (double)(race->width * race->height * race->image_replicas);
-    return entry->rays / entry->samples * patterns[row] * pixels + map;
+    return entry->rays / entry->samples * aur_race_rows[row].pattern * pixels + map;
 }
 
 /* The work to reach the target if samples are allocated in proportion to roots of variances (Neyman 1934),
@@ -289,8 +277,9 @@ static bool fits(const aur_race *race, size_t row) {
  * block. */
 static double first_rung(const aur_race *race, size_t row) {
     const aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
-    const double border = row == AUR_RACE_SHARED || row == AUR_RACE_FOUR ? 2.0 : 1.0;
-    return border * middle->rays * (double)samples_of[row] / (double)samples_of[AUR_RACE_MIDDLE];
+    const double border = aur_race_rows[row].shares ? 2.0 : 1.0;
+    return border * middle->rays * (double)aur_race_rows[row].samples /
+           (double)aur_race_rows[AUR_RACE_MIDDLE].samples;
 }
 
 /* The smallest pattern, where a single one of the next larger reaches the target. */

@@ -25,6 +25,17 @@ static inline bool aur_race_gathers(size_t row) {
     return row != AUR_RACE_PATH && row != AUR_RACE_CANDIDATES;
 }
 
+/* A candidate of the table. A correction has only `keys`: nothing is shared. */
+typedef struct aur_race_row {
+    const char *name, *keys, *more; /* of finalgather, or of path tracing; NULL: none */
+    uint32_t samples;               /* per pixel that a replica renders in the race: whole patterns */
+    double pattern;                 /* samples of a whole pattern */
+    double price; /* work per ray: part of the error is left to bias, and some rays are dearer than others */
+    bool shares;  /* directions of neighbouring pixels */
+} aur_race_row;
+
+extern const aur_race_row aur_race_rows[AUR_RACE_ROWS];
+
 /* The seed of the map that all candidates of a race share. */
 uint64_t aur_race_seed(const aur_render_options *options);
 /* A candidate's integrator with its keys, allocated with malloc; NULL: out of memory. `path` is
@@ -34,7 +45,6 @@ char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t
 /* The integrator of a correction: paths' radiance at the ends of gather rays less the photon map's; not for
  * path tracing. */
 char *aur_race_correction(size_t row, const char *path, size_t photons);
-const char *aur_race_name(size_t row);
 
 /* Photons of a replica's map that cost this part of so much work. */
 #define AUR_RACE_MAP_PART 0.25

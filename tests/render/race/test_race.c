@@ -76,7 +76,7 @@ static void run_request(const char *body, aur_race request, size_t width, size_t
                          .cancelled = &cancelled};
     assert_int_equal(aur_race_run(&f->race, NULL), AUR_OK);
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-        print_message("%s: %.3g rays, %zu blocks, needs %.3g, %s\n", aur_race_name(i),
+        print_message("%s: %.3g rays, %zu blocks, needs %.3g, %s\n", aur_race_rows[i].name,
                       f->race.entries[i].rays, f->race.entries[i].blocks, f->race.entries[i].need,
                       f->race.entries[i].reason);
 }
