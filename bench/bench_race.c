@@ -23,6 +23,7 @@ typedef struct target {
 
 typedef struct outcome {
     double seconds, rays; /* CPU time and work of all */
+    double ray_seconds;   /* of the samples, per ray */
     bool met;             /* not stopped by the limit of rays */
     size_t row;           /* of the race, and what it predicted: */
     double needs[AUR_RACE_ROWS];
@@ -55,6 +56,8 @@ static bool run_to(const aur_scene *scene, const char *integrator, const target 
     if (good) {
         *found = (outcome){.seconds = report.statistics.cpu_seconds,
                            .rays = (double)report.statistics.rays,
+                           .ray_seconds = report.statistics.render_seconds /
+                                          aur_replicas_rays(&adaptive->candidate.replicas),
                            .met = report.error_high <= goal->error || most == 0.0,
                            .row = adaptive->row};
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
@@ -67,6 +70,7 @@ static bool run_to(const aur_scene *scene, const char *integrator, const target 
 
 typedef struct ratios {
     double choice, whole, worst_choice, worst_whole; /* sums of logarithms in the first two */
+    double prices[AUR_RACE_ROWS]; /* sums of logarithms of the time per ray, relative to path tracing's */
     size_t count;
 } ratios;
 
@@ -114,6 +118,8 @@ static bool run_scene(const aur_scene *scene, const char *name, const target *go
            aur_race_rows[best].name, rows[best].seconds, choice, all);
     print_rows(&whole, rows);
     fflush(stdout);
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        sum->prices[i] += log(rows[i].ray_seconds / rows[AUR_RACE_PATH].ray_seconds);
     sum->choice += log(choice);
     sum->whole += log(all);
     sum->worst_choice = fmax(sum->worst_choice, choice);
@@ -180,6 +186,10 @@ static bool run(const bench_options *options) {
     printf("  geometric mean: choice %.2f, whole %.2f; worst %.2f, %.2f\n",
            exp(sum.choice / (double)sum.count), exp(sum.whole / (double)sum.count), sum.worst_choice,
            sum.worst_whole);
+    printf("  time per ray over path tracing's:");
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        printf(" %s %.2f", aur_race_rows[i].name, exp(sum.prices[i] / (double)sum.count));
+    printf("\n");
     return true;
 }
 
