@@ -229,10 +229,8 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, bool *again, au
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
              too_large ? "the bias of its photon map is too large for the target error"
                        : "more rays are needed to bound the bias of its photon map than are saved");
-    size_t rank = adaptive->rank + 1;
-    while (rank + 1 < race->order_count && aur_race_gathers(race->order[rank]) && !too_large)
-        ++rank;
-    return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
+    const size_t last = race->order_count - 1;
+    return take_ranked(adaptive, adaptive->rank < last ? adaptive->rank + 1 : last, error);
 }
 
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,

@@ -1,5 +1,6 @@
 #include "render/race/race.h"
 
+#include <aureole/statistics.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -158,9 +159,59 @@ static double root_variance(const aur_race *race, size_t row, size_t block, cons
     return sqrt(sum * (double)aur_race_rows[row].samples / (others * (double)pixel_count));
 }
 
+/* The row, of those with short rays, whose bias is the least of the measured ones; AUR_RACE_ROWS: none. */
+static size_t least_biased(const aur_race *race, size_t blocks) {
+    static const size_t rows[] = {AUR_RACE_MIDDLE, AUR_RACE_LIGHTS, AUR_RACE_SHARED};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k)
+        if (race->entries[rows[k]].blocks >= blocks)
+            return rows[k];
+    return AUR_RACE_ROWS;
+}
+
+/* The square of the bias of a row that `other` lacks, less a standard error. All rows use one photon map. The
+ * noise of different replicas is independent, so the mean of their products is the square. */
+static double bias_beside(const aur_race *race, size_t row, size_t other, size_t blocks,
+                          const aur_error_weight *weights) {
+    const double step = 1e-3; /* differences are linear only in small errors */
+    const size_t n = race->replica_count;
+    aur_moments products = {.count = 0};
+    for (size_t b = 0; b < blocks; ++b) {
+        size_t pixels[PIXELS];
+        const size_t pixel_count = pixels_of(race, b, pixels);
+        double sums[AUR_REPLICAS_MAX][3] = {{0.0}}, product = 0.0;
+        for (size_t p = 0; p < pixel_count; ++p) {
+            const float *const values = values_at(race, &race->entries[row], b, p);
+            const float *const others = values_at(race, &race->entries[other], b, p);
+            double mean[3], errors[AUR_REPLICAS_MAX][3], differences[AUR_REPLICAS_MAX][3];
+            mean_of_pixel(race, others, mean);
+            for (size_t i = 0; i < 3 * n; ++i)
+                errors[i / 3][i % 3] = step * ((double)values[i] - (double)others[i]);
+            aur_error_apply(race->measure, &weights[b], mean, n, (const double(*)[3])errors, differences);
+            for (size_t i = 0; i < 3 * n; ++i)
+                sums[i / 3][i % 3] += differences[i / 3][i % 3] / (step * (double)pixel_count);
+        }
+        for (size_t r = 0; r < n; ++r)
+            for (size_t q = 0; q < r; ++q)
+                for (size_t c = 0; c < 3; ++c)
+                    product += sums[r][c] * sums[q][c];
+        aur_moments_add(&products, product / (0.5 * (double)(n * (n - 1))));
+    }
+    return fmax(products.mean - aur_moments_standard_error(&products), 0.0) / 3.0;
+}
+
 /* Work per sample. */
 static double price(const aur_race_entry *entry, size_t row) {
     return entry->rays / entry->samples * aur_race_rows[row].price;
+}
+
+/* The part of the error's square that is left to the noise. Half of the error of gathers is left to the bias
+ * of photon maps; where a row's own bias leaves next to nothing, that rules it out. */
+static double noise_part(const aur_race *race, size_t row) {
+    const double map = 0.5 * 0.5, least = 0.05;
+    const double square = race->error * race->error;
+    if (!aur_race_gathers(row))
+        return 1.0;
+    return fmax(1.0 - map - (square > 0.0 ? race->entries[row].bias / square : 0.0), least);
 }
 
 /* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
@@ -176,8 +227,8 @@ static double least_work(const aur_race *race, size_t row) {
  * only compared. */
 static double work_of(const aur_race *race, size_t row, double mean_root) {
     const double error = race->error > 0.0 ? race->error : 1.0;
-    const double work = mean_root * mean_root / (3.0 * error * error) * price(&race->entries[row], row) *
-                        (double)(race->width * race->height);
+    const double work = mean_root * mean_root / (3.0 * error * error * noise_part(race, row)) *
+                        price(&race->entries[row], row) * (double)(race->width * race->height);
     if (!(race->error > 0.0))
         return work;
     const double map = fmax(AUR_RACE_MAP_PART * work, aur_race_least_map(race->image_replicas));
@@ -189,6 +240,7 @@ static aur_result measure(aur_race *race, size_t blocks, aur_error *error) {
     double(*const means)[3] = calloc(blocks, sizeof *means);
     aur_error_weight *const weights = calloc(blocks, sizeof *weights);
     bool allocated = means != NULL && weights != NULL;
+    const size_t other = least_biased(race, blocks);
     if (allocated) {
         mean_of_blocks(race, blocks, means);
         aur_error_weigh(race->measure, blocks, (const double(*)[3])means, (const double(*)[3])means, weights);
@@ -202,6 +254,8 @@ static aur_result measure(aur_race *race, size_t blocks, aur_error *error) {
         for (size_t b = 0; b < blocks && allocated; ++b)
             sum += roots[b] = root_variance(race, i, b, &weights[b]);
         race->entries[i].roots = allocated ? roots : race->entries[i].roots;
+        if (aur_race_gathers(i) && i != other && other < AUR_RACE_ROWS && allocated)
+            race->entries[i].bias = bias_beside(race, i, other, blocks, weights);
         race->entries[i].need = work_of(race, i, sum / (double)blocks);
     }
     free(means);

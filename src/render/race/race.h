@@ -30,8 +30,8 @@ typedef struct aur_race_row {
     const char *name, *keys, *more; /* of finalgather, or of path tracing; NULL: none */
     uint32_t samples;               /* per pixel that a replica renders in the race: whole patterns */
     double pattern;                 /* samples of a whole pattern */
-    double price; /* work per ray: part of the error is left to bias, and some rays are dearer than others */
-    bool shares;  /* directions of neighbouring pixels */
+    double price;                   /* work per ray, relative to path tracing's */
+    bool shares;                    /* directions of neighbouring pixels */
 } aur_race_row;
 
 extern const aur_race_row aur_race_rows[AUR_RACE_ROWS];
@@ -59,6 +59,7 @@ typedef struct aur_race_entry {
     double *roots;   /* [blocks] of the mean variance of a sample */
     double rays;     /* all that it took, without photons */
     double samples;  /* of all pixels and replicas */
+    double bias;     /* square of the error beside the middle row's, at least */
     double need;     /* estimated work to the target, in rays; 0: not measured */
     char reason[96]; /* why it was dropped, not tried, or refused; else empty */
 } aur_race_entry;

@@ -10,8 +10,6 @@
 static const double RAYS_PER_PHOTON = 2.5;
 enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 
-/* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
-#define NOISE_PRICE (1.0 / (1.0 - 0.5 * 0.5))
 /* Candidates' shading takes time without a ray: 1.13 to 1.22 times a plain path's in four scenes. */
 #define CANDIDATES_PRICE 1.2
 
@@ -21,17 +19,17 @@ enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 const aur_race_row aur_race_rows[AUR_RACE_ROWS] = {
     [AUR_RACE_PATH] = {"path", NULL, NULL, 6, 1.0, 1.0, false},
     [AUR_RACE_SHARED] = {"gather-8-shared", "split=1,diffuse_samples=8,glossy_samples=4,light_samples=4",
-                         ",edges=96,share=near", 2, 1.0, NOISE_PRICE, true},
+                         ",edges=96,share=near", 2, 1.0, 1.0, true},
     [AUR_RACE_MIDDLE] = {"gather-32", "split=4,diffuse_samples=32,glossy_samples=16,light_samples=4",
-                         ",edges=192", 4, 4.0, NOISE_PRICE, false},
+                         ",edges=192", 4, 4.0, 1.0, false},
     [AUR_RACE_LIGHTS] = {"gather-32-lights", "split=4,diffuse_samples=32,glossy_samples=16,light_samples=16",
-                         ",edges=192", 4, 4.0, NOISE_PRICE, false},
+                         ",edges=192", 4, 4.0, 1.0, false},
     [AUR_RACE_LONG] = {"gather-32-long",
                        "split=4,diffuse_samples=32,glossy_samples=16,light_samples=1,short_rays=0",
-                       ",edges=192", 4, 4.0, NOISE_PRICE, false},
+                       ",edges=192", 4, 4.0, 1.0, false},
     [AUR_RACE_CANDIDATES] = {"path-2", "candidates=2", NULL, 6, 1.0, CANDIDATES_PRICE, false},
     [AUR_RACE_FOUR] = {"gather-4-shared", "split=1,diffuse_samples=4,glossy_samples=4,light_samples=2",
-                       ",edges=48,share=near", 2, 1.0, NOISE_PRICE, true},
+                       ",edges=48,share=near", 2, 1.0, 1.0, true},
 };
 
 static char *compose(size_t row, const char *path, size_t photons, const char *more) {

@@ -129,6 +129,24 @@ static void test_candidates(void **state) {
     end(&f);
 }
 
+/* A row without short rays has a bias at edges that others lack, which leaves less of a smaller target error
+ * to its noise. */
+static void test_bias(void **state) {
+    (void)state;
+    static const double errors[] = {0.04, 0.02};
+    double over[2];
+    for (size_t i = 0; i < 2; ++i) {
+        fixture f;
+        run(indirect, errors[i], 64, 48, &f);
+        const aur_race_entry *const row = &f.race.entries[AUR_RACE_LONG];
+        const aur_race_entry *const middle = &f.race.entries[AUR_RACE_MIDDLE];
+        assert_true(row->bias > 0.0 && middle->bias == 0.0);
+        over[i] = row->need / middle->need;
+        end(&f);
+    }
+    assert_true(over[1] > 1.1 * over[0]);
+}
+
 /* Where the first blocks may cost nothing, only the middle row is rendered. */
 static void test_no_race(void **state) {
     (void)state;
@@ -246,10 +264,12 @@ static void test_shared_block(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win),  cmocka_unit_test(test_paths_win),
-                                       cmocka_unit_test(test_candidates),   cmocka_unit_test(test_no_race),
-                                       cmocka_unit_test(test_no_choice),    cmocka_unit_test(test_small_race),
-                                       cmocka_unit_test(test_shared_block), cmocka_unit_test(test_coarse),
-                                       cmocka_unit_test(test_time),         cmocka_unit_test(test_apart)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
+        cmocka_unit_test(test_candidates),  cmocka_unit_test(test_bias),
+        cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
+        cmocka_unit_test(test_small_race),  cmocka_unit_test(test_shared_block),
+        cmocka_unit_test(test_coarse),      cmocka_unit_test(test_time),
+        cmocka_unit_test(test_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
