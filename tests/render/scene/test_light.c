@@ -293,6 +293,36 @@ static void turns_environments(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Particles of an image leave by luminance, unlike samples of light, which follow what is above the mean:
+ * each carries as much. Radiance is interpolated by angle and the density by height, so that particles of the
+ * rows of 22.5 degrees from pole to pole differ by the bend of the cosine. Together they carry the integral
+ * of the radiance over directions, times the area of the disc that they leave. */
+static void particles_follow_luminance(void **state) {
+    (void)state;
+    enum { SIDE = 256 };
+    write_sky();
+    aur_scene *const scene = must_load_body(
+        "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter><shape type='cube'/>");
+    double sum = 0.0, integral = 0.0, least = INFINITY, most = 0.0;
+    for (size_t k = 0; k < SIDE * SIDE; ++k) {
+        const float u = ((float)(k % SIDE) + 0.5f) / SIDE, v = ((float)(k / SIDE) + 0.5f) / SIDE;
+        aur_ray ray;
+        aur_vector power;
+        assert_true(
+            aur_light_emit(scene, (const float[5]){0.5f, u, v, 0.5f, 0.5f}, &ray, &power, &(bool){false}));
+        const double carried = (double)aur_luminance(power);
+        sum += carried / (SIDE * SIDE);
+        integral += 4.0 * AUR_PI / (SIDE * SIDE) *
+                    (double)aur_luminance(aur_scene_environment(scene, aur_sample_sphere(u, v)));
+        least = fmin(least, carried);
+        most = fmax(most, carried);
+    }
+    assert_true(most < 1.5 * least);
+    const double radius = (double)scene->radius;
+    assert_near(sum, AUR_PI * radius * radius * integral, 0.01 * sum);
+    aur_scene_destroy(scene);
+}
+
 /* The density follows radiance within patches, so that nothing of what is even among the numbers is lost.
  * Both are interpolated between corners, by height and by angle: on the rows of 22.5 degrees beside the
  * equator the two differ by .01 of a row at most, (pi / 8)^2 / 8 * sin 22.5 / 2 over the row's height.
@@ -549,6 +579,7 @@ int main(void) {
         cmocka_unit_test(draws_what_it_says),
         cmocka_unit_test(draws_environments),
         cmocka_unit_test(turns_environments),
+        cmocka_unit_test(particles_follow_luminance),
         cmocka_unit_test(draws_environments_evenly),
         cmocka_unit_test(shines_from_points),
         cmocka_unit_test(particles_of_every_light),

@@ -7,7 +7,7 @@
 #include "render/scene/materials/sampling.h"
 #include "render/scene/patches.h"
 
-/* Red, green, blue and luminance. */
+/* Red, green, blue, and in proportion to what directions are sampled for light. */
 typedef float aur_texel __attribute__((vector_size(16)));
 
 typedef struct aur_envmap_kernels aur_envmap_kernels;
@@ -16,11 +16,11 @@ typedef struct aur_envmap_kernels aur_envmap_kernels;
  * polar angles j / rows. They are interpolated: each patch lies between four of them. */
 typedef struct aur_envmap {
     size_t width, rows;
-    aur_texel *texels; /* [rows + 1][width + 1]: the first column is repeated at the end */
-    float *heights;    /* [rows + 1]: cosines of the rows' polar angles */
-    float density;     /* pdf by solid angle over interpolated luminance */
-    aur_frame frame;   /* the image axes as world directions */
-    aur_patches patches;
+    aur_texel *texels;               /* [rows + 1][width + 1]: the first column is repeated at the end */
+    float *heights;                  /* [rows + 1]: cosines of the rows' polar angles */
+    aur_frame frame;                 /* the image axes as world directions */
+    aur_patches patches, emission;   /* by the fourth values of texels, and by luminance, for particles */
+    float density, emission_density; /* pdf by solid angle over these values, interpolated */
     const aur_envmap_kernels *kernels;
 } aur_envmap;
 

@@ -35,7 +35,7 @@ static const aur_key shape_names[] = {
     NAME("silhouette_sampling_weight", "not needed: nothing is differentiated"),
 };
 static const aur_key emitter_names[] = {
-    NAME("mis_compensation", "not needed: directions follow the image"),
+    NAME("mis_compensation", "always done"),
 };
 static const aur_key sensor_names[] = {
     NAME("shutter_open", "of no effect: nothing moves"),
