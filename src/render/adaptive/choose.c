@@ -222,15 +222,22 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     return result;
 }
 
-static aur_result reject(aur_adaptive *adaptive, bool too_large, bool *again, aur_error *error) {
-    *again = true;
+/* Continues with the candidate of `rank` in the race instead. */
+static aur_result reject(aur_adaptive *adaptive, size_t rank, const char *reason, bool *again,
+                         aur_error *error) {
     aur_race *const race = &adaptive->race;
     aur_race_entry *const entry = &race->entries[adaptive->row];
-    snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
-             too_large ? "the bias of its photon map is too large for the target error"
-                       : "more rays are needed to bound the bias of its photon map than are saved");
-    const size_t last = race->order_count - 1;
-    return take_ranked(adaptive, adaptive->rank < last ? adaptive->rank + 1 : last, error);
+    *again = true;
+    snprintf(entry->reason, sizeof entry->reason, "rejected: %s", reason);
+    return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
+}
+
+/* The rank of the best candidate without photon maps. */
+static size_t rank_without_maps(const aur_race *race) {
+    size_t rank = 0;
+    while (rank + 1 < race->order_count && aur_race_gathers(race->order[rank]))
+        ++rank;
+    return rank;
 }
 
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,
@@ -274,13 +281,24 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
     const double least =
         fmax(adaptive->race.entries[AUR_RACE_PATH].need, aur_replicas_rays(&adaptive->candidate.replicas));
     if (!(rest->rays <= least) || adaptive->level < LEAST_LEVEL)
-        return reject(adaptive, false, again, error);
+        return reject(adaptive, adaptive->rank + 1,
+                      "more rays are needed to bound the bias of its photon map than are saved", again,
+                      error);
     if (adaptive->bias[adaptive->target.measure].high > rest->bias)
         return correct(adaptive, error);
     while (adaptive->level >= bound * bound)
         adaptive->level *= AUR_NEXT_NOISE_LEVEL;
     *again = true;
     return AUR_OK;
+}
+
+/* All replicas of the race share a photon map, so that it does not see the maps' noise, which samples do not
+ * remove. From the second round on what is left is known; the race's predictions are within a factor of two
+ * (aureole-bench adaptive). */
+static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
+    const aur_race *const race = &adaptive->race;
+    const double other = race->entries[race->order[rank_without_maps(race)]].need;
+    return adaptive->candidate.rounds > 1 && other > 0.0 && rest->rays > 2.0 * other;
 }
 
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
@@ -313,7 +331,11 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
         if (are_corrections_due(adaptive, &rest))
             result = correct(adaptive, error);
         else if (square > 0.0 && bias->low > BIAS_PART * square)
-            result = reject(adaptive, true, again, error);
+            result = reject(adaptive, adaptive->rank + 1,
+                            "the bias of its photon map is too large for the target error", again, error);
+        else if (square > 0.0 && is_behind(adaptive, &rest))
+            result = reject(adaptive, rank_without_maps(&adaptive->race),
+                            "its photon maps have more noise than samples remove", again, error);
         else if (ends && !is_met(adaptive))
             result = make_room(adaptive, &rest, again, error);
         else
