@@ -293,8 +293,8 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
 }
 
 /* All replicas of the race share a photon map, so that it does not see the maps' noise, which samples do not
- * remove. From the second round on what is left is known; the race's predictions are within a factor of two
- * (aureole-bench adaptive). */
+ * remove. From the second round on what is left is known, but the other candidate's need is only predicted:
+ * half as much as is left leaves room for that. */
 static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
     const aur_race *const race = &adaptive->race;
     const double other = race->entries[race->order[rank_without_maps(race)]].need;
