@@ -49,13 +49,18 @@ typedef struct pixel_sums {
     double weighted_squares; /* with the weight once more */
 } pixel_sums;
 
+static double square_mean_of(const pixel_sums *sums) {
+    double sum = 0.0;
+    for (size_t c = 0; c < 3; ++c)
+        sum += sums->radiance[c] * sums->radiance[c];
+    return sum;
+}
+
 /* Whether values differ much within the pixel, by emitters sampled densely enough to be sure. */
 static bool has_edge(const pixel_sums *sums, double variance) {
     const double finest = 1.0 / 64, least_contrast = 0.1; /* of an emitter that covers .9 of the pixel */
-    double square_mean = 0.0;
-    for (size_t c = 0; c < 3; ++c)
-        square_mean += sums->radiance[c] * sums->radiance[c];
-    return variance > least_contrast * square_mean && sums->weighted_squares <= finest * sums->squares;
+    return variance > least_contrast * square_mean_of(sums) &&
+           sums->weighted_squares <= finest * sums->squares;
 }
 
 static void add_point(const visible_point *point, double weight, pixel_sums *sums) {
@@ -97,13 +102,11 @@ aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layo
         const size_t pixel = ((size_t)point.film.y - layout->y0) * width + (size_t)point.film.x - layout->x0;
         const double weight =
             1.0 / ((double)point.light.pdf * (double)point.film.solid_angle * (double)points);
-        visible->share[pixel] += weight;
         add_point(&point, weight, &sums[pixel]);
     }
     for (size_t i = 0; i < pixels; ++i) {
-        double variance = sums[i].squares;
-        for (size_t c = 0; c < 3; ++c)
-            variance -= sums[i].radiance[c] * sums[i].radiance[c];
+        const double square_mean = square_mean_of(&sums[i]), variance = sums[i].squares - square_mean;
+        visible->share[i] = sums[i].squares > 0.0 ? square_mean / sums[i].squares : 0.0;
         visible->variance[i] = fmax(variance, 0.0);
         visible->edges[i] = has_edge(&sums[i], variance);
     }

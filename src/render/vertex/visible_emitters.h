@@ -9,7 +9,8 @@
 /* Per sample of a pixel, uniform in it; arrays over the pixels of the film. NULL unless the camera is a
  * pinhole. */
 typedef struct aur_visible_emitters {
-    double *share;    /* expected number of hits of emitters */
+    double
+        *share; /* expected number of hits of an emitter of equal radiance with the same variance and mean */
     double *variance; /* variance of the sample due to emitters only, summed over R, G and B */
     bool *edges;      /* an emitter's edge crosses the pixel, sampled densely enough to be sure */
 } aur_visible_emitters;
