@@ -60,7 +60,8 @@ static void transfer_state(transfer *to, aur_adaptive *adaptive) {
     transfer_bytes(to, candidate->targets, candidate->value_count * sizeof *candidate->targets);
     transfer_bytes(to, candidate->earlier, candidate->value_count * sizeof *candidate->earlier);
     transfer_bytes(to, candidate->variances, candidate->value_count * sizeof *candidate->variances);
-    transfer_bytes(to, candidate->pixels, candidate->replicas.pixel_count * sizeof *candidate->pixels);
+    transfer_bytes(to, candidate->blocks,
+                   candidate->replicas.columns * candidate->replicas.rows * sizeof *candidate->blocks);
 }
 
 static size_t word_count(aur_adaptive *adaptive) {

@@ -34,14 +34,15 @@ static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene
 
 static aur_result allocate(aur_candidate *candidate, aur_error *error) {
     const size_t pixels = candidate->replicas.pixel_count, values = candidate->value_count;
+    const size_t blocks = candidate->replicas.columns * candidate->replicas.rows;
     aur_arena *const arena = &candidate->arena;
     const bool allocated =
         (candidate->targets = aur_arena_allocate(arena, values * sizeof *candidate->targets)) != NULL &&
         (candidate->earlier = aur_arena_allocate(arena, values * sizeof *candidate->earlier)) != NULL &&
         (candidate->variances = aur_arena_allocate(arena, values * sizeof *candidate->variances)) != NULL &&
         (candidate->measured = aur_arena_allocate(arena, values * sizeof *candidate->measured)) != NULL &&
-        (candidate->pixels = aur_arena_allocate(arena, pixels * sizeof *candidate->pixels)) != NULL &&
-        (candidate->spreads = aur_arena_allocate(arena, pixels * sizeof *candidate->spreads)) != NULL &&
+        (candidate->needs = aur_arena_allocate(arena, values * sizeof *candidate->needs)) != NULL &&
+        (candidate->blocks = aur_arena_allocate(arena, blocks * sizeof *candidate->blocks)) != NULL &&
         (candidate->scratch = aur_arena_allocate(arena, 2 * pixels * sizeof *candidate->scratch)) != NULL &&
         (candidate->light = aur_arena_allocate(arena, values * sizeof *candidate->light)) != NULL &&
         (candidate->values = aur_arena_allocate(arena, 2 * pixels * sizeof *candidate->values)) != NULL &&
@@ -94,13 +95,6 @@ void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum) {
     sum->budget += candidate->alone;
 }
 
-/* The bound for planning the next round, where the weight of all earlier variances halves: half of their
- * excess over the current ones remains. */
-static double bound_expected(const aur_candidate *candidate) {
-    const double high = candidate->intervals[candidate->error_measure].high, bound = candidate->bound;
-    return bound > high && high > 0.0 ? sqrt(0.5 * (high * high + bound * bound)) : bound;
-}
-
 /* Where the error's square falls as samples^-rate. */
 static double factor_to_error(const aur_candidate *candidate, double error) {
     if (!(candidate->bound < INFINITY))
@@ -108,7 +102,7 @@ static double factor_to_error(const aur_candidate *candidate, double error) {
     const aur_error_interval *const interval = &candidate->intervals[candidate->error_measure];
     const double width = interval->high < INFINITY ? 1.0 - interval->estimate / interval->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
-    const double fall = fmin(margin * error / bound_expected(candidate), 1.0 - least_fall);
+    const double fall = fmin(margin * error / candidate->bound, 1.0 - least_fall);
     return pow(fall * fall, 1.0 / candidate->rate);
 }
 
@@ -178,15 +172,30 @@ static double visible_variance(const aur_candidate *candidate, size_t i) {
     return aur_error_variance_bound(candidate->error_measure, &candidate->weights[pixel], &rare);
 }
 
-/* The power computed last: neighbours get equal numbers of samples. */
-typedef struct power {
-    double of, is;
-} power;
+/* The side of the cells of pixels that get samples together; 0: single pixels. */
+static size_t cell_of(const aur_candidate *candidate) {
+    const aur_render *const render = candidate->replicas.renders[0];
+    return aur_render_integrator(render)->whole_tiles ? AUR_TILE_SIZE : aur_render_film(render)->layout.cell;
+}
 
-static double power_of(power *last, double x, double exponent) {
-    if (x != last->of)
-        *last = (power){x, pow(x, exponent)};
-    return last->is;
+/* Variances by which samples are allocated: at least what emitters need that may have been missed. That part
+ * is not pooled over rounds, since it vanishes with more samples much faster than variances fall. What a
+ * pixel needs for an emitter is averaged over its cell: otherwise the others' samples exceed their targets,
+ * and their variances, divided by targets, come out too high. Returns the sum; `emitters`: that of their
+ * parts. */
+static double find_needs(aur_candidate *candidate, double *emitters) {
+    double sum = 0.0;
+    *emitters = 0.0;
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        const double visible = visible_variance(candidate, i);
+        candidate->needs[i] = fmax(candidate->variances[i], visible);
+        sum += candidate->needs[i];
+        *emitters += visible;
+    }
+    const size_t cell = cell_of(candidate);
+    if (cell > 0)
+        aur_replicas_average(&candidate->replicas, cell, candidate->needs);
+    return sum;
 }
 
 /* A single replica, and dark images, have no variances by which samples could go to some pixels. */
@@ -212,21 +221,19 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
     else if (candidate->replicas.count == 1)
         candidate->begun = raise_evenly(candidate, factor);
     else {
+        double emitters;
+        find_needs(candidate, &emitters);
         candidate->begun =
-            aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
+            aur_raise_targets(candidate->value_count, candidate->needs, pow(factor, 1.0 / rounds),
                               AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets) ||
             (aur_candidate_is_dark(candidate) && candidate->bound > 0.0 &&
              raise_evenly(candidate, 1.0 / AUR_MOST_GROWTH));
         round_to_patterns(candidate);
     }
     double before = 0.0, after = 0.0;
-    power fall = {.of = 1.0, .is = 1.0};
     for (size_t i = 0; i < candidate->value_count; ++i) {
         before += candidate->earlier[i];
         after += candidate->targets[i];
-        if (candidate->targets[i] > candidate->earlier[i]) /* what the variances are expected to be then */
-            candidate->variances[i] *= power_of(
-                &fall, (double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
     }
     candidate->rays_before = aur_replicas_rays(&candidate->replicas);
     candidate->rays_planned = before > 0.0 ? candidate->rays_before * (after / before - 1.0) : 0.0;
@@ -244,81 +251,91 @@ static void learn_rate(aur_candidate *candidate, double earlier_error, double ea
     candidate->rate = fmin(fmax(rate, 1.0), 2.0);
 }
 
-/* The samples of a pixel in all replicas. */
-static double samples_in(const aur_candidate *candidate, const uint32_t *samples, size_t pixel) {
-    double sum = 0.0;
-    for (size_t r = 0; r < candidate->replicas.count; ++r)
-        sum += samples[r * candidate->replicas.pixel_count + pixel];
-    return sum;
+/* What earlier rounds predict of variances in the last one. They fall as samples^-1 for random numbers, to
+ * samples^-2 for quasi-Monte Carlo points: `part` of the second law and the rest of the first give the sum
+ * that was measured. Edges of emitters, for which most first samples are taken, are closer to the second. */
+typedef struct prediction {
+    double random, quasi, measured; /* sums */
+    double part;
+} prediction;
+
+/* A value of whose samples `share` are earlier ones. */
+static void add_to_prediction(prediction *sum, double earlier, double share, double measured) {
+    sum->random += earlier * share;
+    sum->quasi += earlier * share * share;
+    sum->measured += measured;
 }
 
-/* Averages a pixel's current variance and spread with those of the rounds before. Where covariances differ
- * by a factor, the root of tr C^2 does so too. */
-static void pool_pixel(aur_pixel_spread *pool, double before, double variance, double spread) {
-    const double root = 0.5 * (sqrt(pool->spread) * before + sqrt(spread));
-    pool->spread = root * root;
-    pool->variance = 0.5 * (pool->variance * before + variance);
+static void fit(prediction *sum) {
+    const double range = sum->random - sum->quasi;
+    sum->part = range > 0.0 ? fmin(fmax((sum->random - sum->measured) / range, 0.0), 1.0) : 0.0;
 }
 
-/* Pools the estimates of all rounds of how concentrated the error is on few pixels. */
-static void pool_pixels(aur_candidate *candidate) {
+static double fall_of(const prediction *sum, double share) {
+    return share * (1.0 + sum->part * (share - 1.0));
+}
+
+/* Pools the estimates of all rounds of how concentrated the error is on few pixels: averages of the last
+ * round's and of what the earlier ones predict, as tr C^2 falls as the square of a variance. */
+static void pool_blocks(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
-    double measured = 0.0, pooled = 0.0;
-    power fall = {.of = 1.0, .is = 1.0};
-    for (size_t i = 0; i < replicas->pixel_count; ++i) {
-        double now = 0.0;
-        for (size_t r = 0; r < replicas->count; ++r) {
-            const size_t value = r * replicas->pixel_count + i;
-            now += candidate->measured[value] / candidate->targets[value] / (double)replicas->count;
-        }
-        const double growth =
-            samples_in(candidate, candidate->earlier, i) / samples_in(candidate, candidate->targets, i);
-        if (candidate->rounds > 1)
-            pool_pixel(&candidate->pixels[i], power_of(&fall, growth, candidate->rate), now,
-                       candidate->spreads[i]);
-        else
-            candidate->pixels[i] = (aur_pixel_spread){now, candidate->spreads[i]};
-        measured += now;
-        pooled += candidate->pixels[i].variance;
-    }
-    candidate->pooled = measured > 0.0 ? pooled / measured : 1.0;
-    aur_deviations_pool(&candidate->measure.deviations, replicas->count, replicas->pixel_count,
-                        candidate->pixels);
-}
-
-/* The side of the cells of pixels that get samples together; 0: single pixels. */
-static size_t cell_of(const aur_candidate *candidate) {
-    const aur_render *const render = candidate->replicas.renders[0];
-    return aur_render_integrator(render)->whole_tiles ? AUR_TILE_SIZE : aur_render_film(render)->layout.cell;
-}
-
-/* Combines the last round's variances with the prediction from the rounds before. A variance from a few
- * replicas has few degrees of freedom: they may agree by chance in this round but did not in earlier ones.
- * The bound is the end of the interval if the earlier rounds showed more error, or emitters may have been
- * missed. What a pixel needs for an emitter is averaged over its cell: otherwise the others' samples exceed
- * their targets, and their variances, divided by targets, come out too high. */
-static void pool_variances(aur_candidate *candidate) {
-    double measured = 0.0, pooled = 0.0, visible = 0.0;
+    const size_t count = replicas->columns * replicas->rows;
+    double *const earlier = candidate->scratch, *const targets = candidate->scratch + count;
+    double pooled = 0.0;
+    prediction sum = {.part = 0.0};
+    memset(candidate->scratch, 0, 2 * count * sizeof *candidate->scratch);
     for (size_t i = 0; i < candidate->value_count; ++i) {
-        const double now = candidate->measured[i], emitters = visible_variance(candidate, i);
-        const double all = candidate->rounds > 1 ? 0.5 * (candidate->variances[i] + now) : now;
-        candidate->variances[i] = fmax(all, emitters);
-        measured += now;
-        pooled += candidate->variances[i];
-        visible += emitters;
+        const size_t block = aur_replicas_block_of(replicas, i % replicas->pixel_count);
+        earlier[block] += candidate->earlier[i];
+        targets[block] += candidate->targets[i];
     }
-    const size_t cell = cell_of(candidate);
-    if (cell > 0)
-        aur_replicas_average(&candidate->replicas, cell, candidate->variances);
+    for (size_t b = 0; b < count; ++b)
+        add_to_prediction(&sum, candidate->blocks[b].variance, earlier[b] / targets[b],
+                          replicas->blocks[b].variance);
+    fit(&sum);
+    for (size_t b = 0; b < count; ++b) {
+        const aur_block_spread *const now = &replicas->blocks[b];
+        aur_block_spread *const pool = &candidate->blocks[b];
+        const double fall = fall_of(&sum, earlier[b] / targets[b]), half = candidate->rounds > 1 ? 0.5 : 1.0;
+        pool->variance = half * now->variance + (1.0 - half) * pool->variance * fall;
+        pool->spread = half * now->spread + (1.0 - half) * pool->spread * fall * fall;
+        pooled += pool->variance;
+    }
+    candidate->pooled = sum.measured > 0.0 ? pooled / sum.measured : 1.0;
+    aur_deviations_pool(&candidate->measure.deviations, replicas->count, replicas->columns, replicas->rows,
+                        candidate->blocks);
+}
+
+/* The share of a value's samples that are from before the last round. */
+static double share_of(const aur_candidate *candidate, size_t i) {
+    return (double)candidate->earlier[i] / (double)candidate->targets[i];
+}
+
+/* Combines the last round's variances with the prediction from the rounds before. A variance
+ * from a few replicas has few degrees of freedom: they may agree by chance in this round but did not in
+ * earlier ones. The bound is the end of the interval if the earlier rounds showed more error, or emitters may
+ * have been missed. */
+static void pool_variances(aur_candidate *candidate) {
+    prediction sum = {.part = 0.0};
+    double emitters;
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        add_to_prediction(&sum, candidate->variances[i], share_of(candidate, i), candidate->measured[i]);
+    fit(&sum);
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        const double before = candidate->variances[i] * fall_of(&sum, share_of(candidate, i));
+        const double now = candidate->measured[i];
+        candidate->variances[i] = candidate->rounds > 1 ? 0.5 * (before + now) : now;
+    }
+    const double pooled = find_needs(candidate, &emitters);
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
         candidate->bound =
-            visible > 0.0 || candidate->finished * (double)candidate->replicas.pixel_count < DARK_SAMPLES
+            emitters > 0.0 || candidate->finished * (double)candidate->replicas.pixel_count < DARK_SAMPLES
                 ? INFINITY
                 : 0.0;
-    else if (measured > 0.0)
+    else if (sum.measured > 0.0)
         candidate->bound =
-            candidate->intervals[candidate->error_measure].high * sqrt(fmax(pooled / measured, 1.0));
+            candidate->intervals[candidate->error_measure].high * sqrt(fmax(pooled / sum.measured, 1.0));
     else
         candidate->bound = sqrt(pooled / (count * 3.0 * (double)candidate->value_count));
 }
@@ -356,15 +373,14 @@ static double mean_of(const aur_candidate *candidate) {
 /* By the target's measure; a single replica has no error. */
 static void measure(aur_candidate *candidate, double confidence) {
     const aur_error_measure m = candidate->error_measure;
-    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_measure(candidate);
     if (candidate->replicas.count == 1) {
         candidate->measure.mean = mean_of(candidate);
         return;
     }
     aur_replicas_measure(&candidate->replicas, (const double(*)[3])candidate->light,
-                         (aur_weighing){m, candidate->weights}, &candidate->measure, &pixels);
-    pool_pixels(candidate);
+                         (aur_weighing){m, candidate->weights}, &candidate->measure, candidate->measured);
+    pool_blocks(candidate);
     candidate->intervals[m] = interval_of(candidate, &candidate->measure, confidence);
 }
 

@@ -19,8 +19,8 @@ typedef struct aur_candidate {
     uint32_t *earlier;  /* [value_count] before it */
     double *variances;  /* [value_count] of the replicas' pixels, by the other replicas in all rounds */
     double *measured;   /* the same of the last round alone */
-    aur_pixel_spread *pixels;     /* [pixel_count] by all rounds */
-    double *spreads;              /* [pixel_count] of the last round alone */
+    double *needs;      /* `variances`, or what emitters not hit yet need if that is more */
+    aur_block_spread *blocks;     /* [replicas.rows][replicas.columns] by all rounds */
     double *scratch;              /* [2 x pixel_count] */
     aur_visible_emitters visible; /* where the integrator shows them */
     double (*light)[3];           /* [value_count] R, G, B of the replicas after the last round */

@@ -5,63 +5,114 @@
 
 /* The mean of ((X_i - X_j).(X_k - X_l))^2 / 4 over distinct i, j, k, l, computed from the sum of squares of
  * all products (`squares`), that of the diagonal (`diagonal`), and the row sums, which are zero. */
-static double spread_of_fours(double count, double trace, double squares, double diagonal) {
+static double spread_of_fours(double count, double traces, double squares, double diagonal) {
     const double two = squares - diagonal, three = 2.0 * diagonal - squares;
-    const double four = trace * trace - 6.0 * diagonal + 2.0 * squares;
+    const double four = traces - 6.0 * diagonal + 2.0 * squares;
     const double pairs = count * (count - 1.0), triples = pairs * (count - 2.0);
     return two / pairs - 2.0 * three / triples + four / (triples * (count - 3.0));
 }
 
-/* Sums over a Gram matrix. */
+/* Sums over the products of two Gram matrices' entries. */
 typedef struct gram_sums {
-    double trace, squares, diagonal;
+    double traces, squares, diagonal;
 } gram_sums;
 
-static gram_sums sums_of(const aur_gram *block) {
-    gram_sums sums = {.trace = 0.0};
-    for (size_t r = 0; r < block->count; ++r) {
-        sums.trace += block->products[r][r];
-        sums.diagonal += block->products[r][r] * block->products[r][r];
-        for (size_t s = 0; s < block->count; ++s)
-            sums.squares += block->products[r][s] * block->products[r][s];
+static gram_sums sums_of(const aur_gram *pixel) {
+    gram_sums sums = {.traces = 0.0};
+    for (size_t r = 0; r < pixel->count; ++r) {
+        sums.traces += pixel->products[r][r];
+        sums.diagonal += pixel->products[r][r] * pixel->products[r][r];
+        for (size_t s = 0; s < pixel->count; ++s)
+            sums.squares += pixel->products[r][s] * pixel->products[r][s];
     }
+    sums.traces *= sums.traces;
     return sums;
 }
 
 static double spread_of_normal(double n, const gram_sums *sums) {
-    return fmax(sums->squares - sums->trace * sums->trace / n, 0.0) / ((n - 1.0) * (n + 2.0));
+    return (sums->squares - sums->traces / n) / ((n - 1.0) * (n + 2.0));
 }
 
 static double spread_of(size_t count, const gram_sums *sums) {
-    const double spread = count > 3
-                              ? spread_of_fours((double)count, sums->trace, sums->squares, sums->diagonal)
-                              : spread_of_normal((double)count - 1.0, sums);
-    return fmax(spread, 0.0);
+    return count > 3 ? spread_of_fours((double)count, sums->traces, sums->squares, sums->diagonal)
+                     : spread_of_normal((double)count - 1.0, sums);
 }
 
-void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
-    const gram_sums sums = sums_of(block);
-    const double spread = spread_of(block->count, &sums);
-    sum->blocks += spread;
-    sum->square_blocks += spread * spread;
+/* Of the covariances of one block's values with another's, or with themselves. */
+static double spread_between(size_t count, const double *a, const double *b) {
+    gram_sums sums = {.squares = 0.0};
+    double trace_a = 0.0, trace_b = 0.0;
+    for (size_t r = 0; r < count; ++r, ++a, ++b) {
+        for (size_t s = 0; s < r; ++s, ++a, ++b)
+            sums.squares += 2.0 * *a * *b;
+        sums.squares += *a * *b;
+        sums.diagonal += *a * *b;
+        trace_a += *a;
+        trace_b += *b;
+    }
+    sums.traces = trace_a * trace_b;
+    return spread_of(count, &sums);
 }
 
-double aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel, double d[3][AUR_REPLICAS_MAX],
-                                double others, aur_cell *cell) {
+/* The offsets to half of a block's neighbours; the others have it among theirs. */
+static const struct offset { ptrdiff_t x, y; } FORWARD[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+
+enum { FORWARDS = sizeof FORWARD / sizeof FORWARD[0] };
+
+/* The index of a block's neighbour; the number of blocks: there is none. */
+static size_t neighbour_of(size_t columns, size_t rows, size_t block, struct offset offset) {
+    const size_t x = block % columns + (size_t)offset.x, y = block / columns + (size_t)offset.y;
+    return x < columns && y < rows ? y * columns + x : columns * rows;
+}
+
+void aur_blocks_measure(size_t count, size_t columns, size_t rows, const double *products,
+                        aur_block_spread *blocks) {
+    const size_t block_count = columns * rows, stride = AUR_GRAM_ENTRIES(count);
+    for (size_t i = 0; i < block_count; ++i) {
+        const double *const own = products + i * stride;
+        blocks[i] = (aur_block_spread){.spread = spread_between(count, own, own)};
+        for (size_t r = 0; r < count; ++r)
+            blocks[i].variance += own[AUR_GRAM_ENTRIES(r + 1) - 1] / (double)(count - 1);
+    }
+    for (size_t k = 0; k < FORWARDS; ++k)
+        for (size_t i = 0; i < block_count; ++i) {
+            const size_t j = neighbour_of(columns, rows, i, FORWARD[k]);
+            if (j == block_count)
+                continue;
+            const double spread = spread_between(count, products + i * stride, products + j * stride);
+            blocks[i].spread += spread;
+            blocks[j].spread += spread;
+        }
+}
+
+void aur_deviations_set_blocks(aur_deviations *sum, size_t columns, size_t rows,
+                               const aur_block_spread *blocks) {
+    const size_t block_count = columns * rows;
+    sum->blocks = sum->square_blocks = 0.0;
+    for (size_t i = 0; i < block_count; ++i) {
+        const double own = blocks[i].spread;
+        sum->blocks += own;
+        sum->square_blocks += own * own;
+        for (size_t k = 0; k < FORWARDS; ++k) {
+            const size_t j = neighbour_of(columns, rows, i, FORWARD[k]);
+            sum->square_blocks += j < block_count ? 2.0 * own * blocks[j].spread : 0.0;
+        }
+    }
+}
+
+void aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel, double d[3][AUR_REPLICAS_MAX],
+                              double others, aur_cell *cell) {
     const gram_sums sums = sums_of(pixel);
-    const double spread = spread_of(pixel->count, &sums);
-    sum->trace += sums.trace;
+    for (size_t r = 0; r < pixel->count; ++r)
+        sum->trace += pixel->products[r][r];
     sum->others += others;
-    sum->pixels += spread;
-    sum->square_pixels += spread * spread;
     for (size_t a = 0; a < 3; ++a)
         for (size_t b = 0; b < 3; ++b)
             for (size_t r = 0; r < pixel->count; ++r)
                 cell->products[a][b] += d[a][r] * d[b][r];
     cell->squares += sums.squares;
-    cell->spread += spread;
+    cell->spread += spread_of(pixel->count, &sums);
     ++cell->pixels;
-    return spread;
 }
 
 void aur_deviations_add_cell(aur_deviations *sum, const aur_cell *cell) {
@@ -70,23 +121,20 @@ void aur_deviations_add_cell(aur_deviations *sum, const aur_cell *cell) {
     for (size_t a = 0; a < 3; ++a)
         for (size_t b = 0; b < 3; ++b)
             squares += cell->products[a][b] * cell->products[a][b];
-    const double spread = fmax(squares / (n * n) + cell->spread, 0.0) / (double)cell->pixels;
+    const double spread = (squares / (n * n) + cell->spread) / (double)cell->pixels;
     sum->cells += spread;
     sum->square_cells += spread * spread;
 }
 
-void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
-                         const aur_pixel_spread *pixels) {
+void aur_deviations_pool(aur_deviations *sum, size_t count, size_t columns, size_t rows,
+                         const aur_block_spread *blocks) {
     double variance = 0.0;
-    sum->pixels = sum->square_pixels = 0.0;
-    for (size_t i = 0; i < pixel_count; ++i) {
-        variance += pixels[i].variance;
-        sum->pixels += pixels[i].spread;
-        sum->square_pixels += pixels[i].spread * pixels[i].spread;
-    }
-    const double part = variance > 0.0 ? sum->others / ((double)(count - 1) * variance) : 0.0;
-    sum->pixels *= part * part;
-    sum->square_pixels *= pow(part, 4.0);
+    for (size_t i = 0; i < columns * rows; ++i)
+        variance += blocks[i].variance;
+    const double part = variance > 0.0 ? sum->trace / ((double)(count - 1) * variance) : 0.0;
+    aur_deviations_set_blocks(sum, columns, rows, blocks);
+    sum->blocks *= part * part;
+    sum->square_blocks *= pow(part, 4.0);
 }
 
 /* An estimate of tr C^2 with its degrees of freedom. */
@@ -94,30 +142,28 @@ typedef struct spread_estimate {
     double spread, degrees;
 } spread_estimate;
 
-/* The relative variance of a spread is two divided by its degrees. For normal values, a block has as many as
- * there are independent differences of four replicas, count (count - 3) / 2 (two for three replicas,
- * Wishart), and its square is one plus that variance times as large as expected. */
+/* The relative variance of a spread is two divided by its degrees. For normal values, a block and its
+ * neighbours together have as many as there are independent differences of four replicas, count (count - 3) /
+ * 2 (two for three replicas, Wishart), and its square is one plus that variance times as large as expected.
+ */
 static spread_estimate spread_of_blocks(const aur_deviations *sum, double one) {
     return (spread_estimate){sum->blocks, (one + 2.0) * sum->blocks * sum->blocks / sum->square_blocks};
 }
 
-/* The estimates by pixels and cells are nearly squares of variances with n degrees, whose relative variance
- * is 8 (n + 3) / (n (n + 2)). Pixels that share samples deviate together. */
-static spread_estimate spread_of_variances(double overlap, double n, double sum, double squares) {
-    return (spread_estimate){overlap * sum,
-                             (n + 4.0) * (n + 6.0) / (4.0 * (n + 3.0)) * sum * sum / (overlap * squares)};
-}
-
-static spread_estimate larger(spread_estimate a, spread_estimate b) {
-    return b.spread > a.spread ? b : a;
+/* The estimate by cells is nearly the square of a variance with n degrees, whose relative variance is
+ * 8 (n + 3) / (n (n + 2)). Pixels that share samples deviate together. */
+static spread_estimate spread_of_cells(const aur_deviations *sum, double n) {
+    const double squares = sum->overlap * sum->square_cells;
+    return (spread_estimate){sum->overlap * sum->cells,
+                             (n + 4.0) * (n + 6.0) / (4.0 * (n + 3.0)) * sum->cells * sum->cells / squares};
 }
 
 static spread_estimate find_spread(const aur_deviations *sum, size_t count) {
     const double n = (double)(count - 1), one = count > 3 ? 0.5 * (double)(count * (count - 3)) : 2.0;
-    spread_estimate found =
-        larger(spread_of_blocks(sum, one),
-               larger(spread_of_variances(sum->overlap, AUR_CELL_PIXELS * n, sum->cells, sum->square_cells),
-                      spread_of_variances(sum->overlap, n, sum->pixels, sum->square_pixels)));
+    const spread_estimate blocks = spread_of_blocks(sum, one);
+    const spread_estimate cells = spread_of_cells(sum, AUR_CELL_PIXELS * n);
+    spread_estimate found = cells.spread > blocks.spread ? cells : blocks;
+    found.spread = fmax(found.spread, 0.0);
     found.degrees = found.degrees > one ? fmin(found.degrees, 1e6) : one;
     return found;
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "points/base/error.h"
@@ -9,6 +10,21 @@
 #include "render/driver/renderer.h"
 #include "render/film/clamp.h"
 #include "render/film/film.h"
+
+/* Correlation between pixels is estimated within blocks of this side and with the blocks around them, so that
+ * no border cuts what filters or patterns share. */
+enum { BLOCK = 4 };
+
+/* A grid of blocks over a film, in the whole image's. */
+typedef struct block_grid {
+    size_t first_column, first_row, columns, rows;
+} block_grid;
+
+static block_grid grid_of(const aur_film_layout *layout) {
+    const size_t column = layout->x0 / BLOCK, row = layout->y0 / BLOCK;
+    return (block_grid){column, row, (layout->x1 - 1) / BLOCK + 1 - column,
+                        (layout->y1 - 1) / BLOCK + 1 - row};
+}
 
 aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options,
                                const char *integrator, size_t count, aur_replicas *replicas,
@@ -27,12 +43,20 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
         replicas->count = r + 1;
     }
     replicas->pixel_count = aur_film_pixel_count(aur_render_film(replicas->renders[0]));
-    return AUR_OK;
+    const block_grid grid = grid_of(&aur_render_film(replicas->renders[0])->layout);
+    const size_t blocks = grid.columns * grid.rows, entries = AUR_GRAM_ENTRIES(count);
+    replicas->columns = grid.columns;
+    replicas->rows = grid.rows;
+    replicas->products = calloc(blocks, entries * sizeof *replicas->products);
+    replicas->blocks = calloc(blocks, sizeof *replicas->blocks);
+    return replicas->products != NULL && replicas->blocks != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 void aur_replicas_release(aur_replicas *replicas) {
     for (size_t r = 0; r < replicas->count; ++r)
         aur_render_destroy(replicas->renders[r]);
+    free(replicas->products);
+    free(replicas->blocks);
     *replicas = (aur_replicas){0};
 }
 
@@ -122,9 +146,6 @@ void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const
     weigh_steps(count, weighing, pixel, -1.0 / (double)(count - 1), mean, d);
 }
 
-/* Correlation between pixels is estimated within blocks of this side. */
-enum { BLOCK = 8 };
-
 /* The pixels of a film within a cell of a grid over the whole image. */
 typedef struct pixel_range {
     size_t x0, x1, y0, y1; /* from the film's corner on */
@@ -212,12 +233,12 @@ typedef struct block_sums {
     const double (*light)[3];
     aur_weighing weighing;
     aur_replica_measure *measure;
-    const aur_pixel_measure *pixels;
-    bool linear; /* the measure is */
-    aur_gram gram;
+    double *variances; /* of single pixels, or NULL */
+    bool linear;       /* the measure is */
+    double *products;
 } block_sums;
 
-/* Adds a pixel to the block, its cell and the measure, and sets its variances and spread. */
+/* Adds a pixel to the block, its cell and the measure, and sets its variances. */
 static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
     const aur_replicas *const replicas = block->replicas;
     const size_t count = replicas->count;
@@ -230,8 +251,8 @@ static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
         memcpy(single, d, sizeof d);
     aur_replicas_weigh(count, block->weighing, pixel, means, d);
     find_gram(count, d, &gram);
-    if (block->pixels != NULL)
-        find_variances(replicas, pixel, &gram, block->pixels->variances);
+    if (block->variances != NULL)
+        find_variances(replicas, pixel, &gram, block->variances);
     double others = 0.0;
     for (size_t r = 0; r < count; ++r)
         others += gram.products[r][r];
@@ -239,13 +260,10 @@ static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
         weigh_steps(count, block->weighing, pixel, 1.0, means, single);
         find_gram(count, single, &gram);
     }
-    const double spread = aur_deviations_add_pixel(&block->measure->deviations, &gram,
-                                                   block->linear ? d : single, others, cell);
-    if (block->pixels != NULL)
-        block->pixels->spreads[pixel] = spread;
-    for (size_t r = 0; r < count; ++r)
-        for (size_t s = 0; s < count; ++s)
-            block->gram.products[r][s] += gram.products[r][s];
+    aur_deviations_add_pixel(&block->measure->deviations, &gram, block->linear ? d : single, others, cell);
+    for (size_t r = 0, k = 0; r < count; ++r)
+        for (size_t s = 0; s <= r; ++s)
+            block->products[k++] += gram.products[r][s];
 }
 
 /* Adds the pixels of a cell to its block and the measure. */
@@ -264,23 +282,27 @@ static void measure_block(block_sums *block, const aur_film_layout *layout, cons
          ++row)
         for (size_t column = first; column * AUR_CELL_SIDE < range->x1 + layout->x0; ++column)
             measure_cell(block, layout, column, row);
-    aur_deviations_add(&block->measure->deviations, &block->gram);
 }
 
 void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
-                          aur_replica_measure *measure, const aur_pixel_measure *pixels) {
+                          aur_replica_measure *measure, double *variances) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     const bool linear = weighing.weights == NULL || weighing.measure != AUR_ERROR_MEASURE_DISPLAY;
     *measure = (aur_replica_measure){
         .deviations = {.overlap = film->spread != NULL ? aur_spread_overlap(film->spread) : 1.0}};
-    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
-        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            block_sums block = {
-                replicas, light, weighing, measure, pixels, linear, {.count = replicas->count}};
-            const pixel_range range = cell_of(layout, BLOCK, column, row);
-            measure_block(&block, layout, &range);
-        }
+    const block_grid grid = grid_of(layout);
+    const size_t blocks = grid.columns * grid.rows, entries = AUR_GRAM_ENTRIES(replicas->count);
+    memset(replicas->products, 0, blocks * entries * sizeof *replicas->products);
+    for (size_t i = 0; i < blocks; ++i) {
+        block_sums block = {
+            replicas, light, weighing, measure, variances, linear, replicas->products + i * entries};
+        const pixel_range range =
+            cell_of(layout, BLOCK, grid.first_column + i % grid.columns, grid.first_row + i / grid.columns);
+        measure_block(&block, layout, &range);
+    }
+    aur_blocks_measure(replicas->count, grid.columns, grid.rows, replicas->products, replicas->blocks);
+    aur_deviations_set_blocks(&measure->deviations, grid.columns, grid.rows, replicas->blocks);
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
@@ -335,6 +357,14 @@ void aur_replicas_average(const aur_replicas *replicas, size_t side, double *var
                     averaged[k / across * width + k % across] = sum / (double)count;
             }
         }
+}
+
+size_t aur_replicas_block_of(const aur_replicas *replicas, size_t pixel) {
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const block_grid grid = grid_of(layout);
+    const size_t width = layout->x1 - layout->x0;
+    return ((layout->y0 + pixel / width) / BLOCK - grid.first_row) * grid.columns +
+           (layout->x0 + pixel % width) / BLOCK - grid.first_column;
 }
 
 bool aur_replicas_clamp(const aur_replicas *replicas) {

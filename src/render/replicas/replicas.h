@@ -12,6 +12,9 @@ typedef struct aur_replicas {
     size_t count; /* created renders: fewer than requested after a failure */
     aur_render *renders[AUR_REPLICAS_MAX];
     size_t pixel_count;
+    size_t columns, rows;     /* of blocks of pixels */
+    double *products;         /* of the replicas' deviations, by blocks; scratch */
+    aur_block_spread *blocks; /* [rows][columns] as measured last */
 } aur_replicas;
 
 /* `options` as for aur_render_create, but with this integrator (NULL: the scene's) and any number of samples;
@@ -40,15 +43,9 @@ void aur_spent_add(aur_spent *sum, const aur_replicas *replicas, uint64_t prepar
 
 /* Estimates from the samples so far. */
 typedef struct aur_replica_measure {
-    aur_deviations deviations; /* of blocks of 8 x 8 pixels */
-    double mean;               /* over pixels and channels R, G, B */
+    aur_deviations deviations;
+    double mean; /* over pixels and channels R, G, B */
 } aur_replica_measure;
-
-/* Estimates for single pixels. */
-typedef struct aur_pixel_measure {
-    double *variances; /* [count * pixel_count] */
-    double *spreads;   /* [pixel_count] tr C^2 of a replica's value */
-} aur_pixel_measure;
 
 /* R, G, B of each replica's pixels, light[count * pixel_count], and their means over the replicas. */
 void aur_replicas_mean(const aur_replicas *replicas, double (*light)[3], double (*values)[3]);
@@ -68,18 +65,21 @@ void aur_replicas_read(const aur_replicas *replicas, const size_t corners[2], si
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]);
 
-/* From the replicas' `light`. All results are in the units of the weighing, except for the mean. `pixels` may
- * be NULL. Its `variances` get, for each replica and pixel, the sum over the differences of the variance of
- * one sample, from the other replicas alone. If a replica allocated samples by its own values, it would
- * starve pixels where these agree by chance, and underestimate its error. */
+/* From the replicas' `light`. All results are in the units of the weighing, except for the mean. `variances`,
+ * which may be NULL, get for each replica and pixel the sum over the differences of the variance of one
+ * sample, from the other replicas alone: [count * pixel_count]. If a replica allocated samples by its own
+ * values, it would starve pixels where these agree by chance, and underestimate its error. */
 void aur_replicas_measure(const aur_replicas *replicas, const double (*light)[3], aur_weighing weighing,
-                          aur_replica_measure *measure, const aur_pixel_measure *pixels);
+                          aur_replica_measure *measure, double *variances);
 
 /* Variances of single pixels are too uncertain for allocating samples: each becomes a mean over the pixels
  * around it. `scratch` has space for 2 x pixel_count values. */
 void aur_replicas_smooth(const aur_replicas *replicas, double *variances, double *scratch);
 /* Each becomes the mean of its cell of `side` x `side` pixels, which get equal numbers of samples. */
 void aur_replicas_average(const aur_replicas *replicas, size_t side, double *variances);
+
+/* The block in which a pixel is. */
+size_t aur_replicas_block_of(const aur_replicas *replicas, size_t pixel);
 
 /* Whether channels 3 to 5 have the mean of the light removed by the clamp. */
 bool aur_replicas_clamp(const aur_replicas *replicas);

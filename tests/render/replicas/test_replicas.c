@@ -9,7 +9,6 @@ enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
 typedef struct fixture {
     prepared box;
     aur_replicas replicas;
-    double spreads[PIXELS];
 } fixture;
 
 /* Replicas of the Cornell box, with so many samples per pixel rendered. */
@@ -38,13 +37,11 @@ static void test_values_of_the_replica_do_not_count(void **state) {
     aur_replica_measure measure;
     aur_replicas_mean(&f.replicas, light, means);
     aur_replicas_measure(&f.replicas, (const double(*)[3])light,
-                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
-                         &(aur_pixel_measure){before, f.spreads});
+                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure, before);
     assert_int_equal(aur_render_step(f.replicas.renders[0], 1, NULL), AUR_OK);
     aur_replicas_mean(&f.replicas, light, means);
     aur_replicas_measure(&f.replicas, (const double(*)[3])light,
-                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
-                         &(aur_pixel_measure){after, f.spreads});
+                         (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure, after);
     double sums[2] = {0.0, 0.0};
     for (size_t i = 0; i < PIXELS; ++i) {
         assert_near(after[i], before[i], 1e-9 * (1.0 + before[i]));
