@@ -311,10 +311,10 @@ static double share_of(const aur_candidate *candidate, size_t i) {
     return (double)candidate->earlier[i] / (double)candidate->targets[i];
 }
 
-/* Combines the last round's variances with the prediction from the rounds before. A variance
- * from a few replicas has few degrees of freedom: they may agree by chance in this round but did not in
- * earlier ones. The bound is the end of the interval if the earlier rounds showed more error, or emitters may
- * have been missed. */
+/* Combines the last round's variances with the prediction from the rounds before. A variance from a few
+ * replicas has few degrees of freedom: they may agree by chance in this round but did not in earlier ones. If
+ * these showed more error, or emitters may have been missed, the bound has that variance beside the end of
+ * the interval, which has the uncertainty of what was measured. */
 static void pool_variances(aur_candidate *candidate) {
     prediction sum = {.part = 0.0};
     double emitters;
@@ -327,6 +327,7 @@ static void pool_variances(aur_candidate *candidate) {
         candidate->variances[i] = candidate->rounds > 1 ? 0.5 * (before + now) : now;
     }
     const double pooled = find_needs(candidate, &emitters);
+    const aur_error_interval *const noise = &candidate->intervals[candidate->error_measure];
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
         candidate->bound =
@@ -334,8 +335,7 @@ static void pool_variances(aur_candidate *candidate) {
                 ? INFINITY
                 : 0.0;
     else if (sum.measured > 0.0)
-        candidate->bound =
-            candidate->intervals[candidate->error_measure].high * sqrt(fmax(pooled / sum.measured, 1.0));
+        candidate->bound = hypot(noise->high, noise->estimate * sqrt(fmax(pooled / sum.measured - 1.0, 0.0)));
     else
         candidate->bound = sqrt(pooled / (count * 3.0 * (double)candidate->value_count));
 }
