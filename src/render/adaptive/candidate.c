@@ -181,8 +181,7 @@ static size_t cell_of(const aur_candidate *candidate) {
 /* Variances by which samples are allocated: at least what emitters need that may have been missed. That part
  * is not pooled over rounds, since it vanishes with more samples much faster than variances fall. What a
  * pixel needs for an emitter is averaged over its cell: otherwise the others' samples exceed their targets,
- * and their variances, divided by targets, come out too high. Returns the sum; `emitters`: that of their
- * parts. */
+ * and their variances, divided by targets, come out too high. Returns the sum; `emitters`: what they need. */
 static double find_needs(aur_candidate *candidate, double *emitters) {
     double sum = 0.0;
     *emitters = 0.0;

@@ -340,9 +340,11 @@ static void test_pairs_of_a_cell(void **state) {
     enum { COUNT = 4 };
     aur_deviations sum = {.overlap = 1.0};
     aur_cell cell = {.count = COUNT};
-    double d[AUR_CELL_PIXELS][3][AUR_REPLICAS_MAX];
+    double d[AUR_CELL_PIXELS][3][AUR_REPLICAS_MAX], expected = 0.0;
     for (size_t p = 0; p < AUR_CELL_PIXELS; ++p) {
         aur_gram gram = {.count = COUNT};
+        double products[AUR_GRAM_ENTRIES(COUNT)];
+        aur_block_spread pixel;
         for (size_t c = 0; c < 3; ++c) {
             for (size_t r = 0; r < COUNT; ++r)
                 d[p][c][r] = normal(5, (p * 3 + c) * COUNT + r);
@@ -352,8 +354,12 @@ static void test_pairs_of_a_cell(void **state) {
                     gram.products[r][s] += d[p][c][r] * d[p][c][s];
         }
         aur_deviations_add_pixel(&sum, &gram, d[p], 0.0, &cell);
+        for (size_t r = 0, k = 0; r < COUNT; ++r)
+            for (size_t s = 0; s <= r; ++s)
+                products[k++] = gram.products[r][s];
+        aur_blocks_measure(COUNT, 1, 1, products, &pixel); /* compared with all sets of four in test_fours */
+        expected += pixel.spread / AUR_CELL_PIXELS;
     }
-    double expected = cell.spread / AUR_CELL_PIXELS;
     aur_deviations_add_cell(&sum, &cell);
     for (size_t code = 0; code < AUR_CELL_PIXELS * AUR_CELL_PIXELS * 9; ++code) {
         const size_t p = code % AUR_CELL_PIXELS, q = code / AUR_CELL_PIXELS % AUR_CELL_PIXELS;
