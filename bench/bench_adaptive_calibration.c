@@ -13,7 +13,7 @@
 enum {
     WIDTH = 16,
     HEIGHT = 16,
-    FIRST_SEED = 18001,
+    FIRST_SEED = 22001,
     RUNS = 200,
     QUICK_RUNS = 2,
     REFERENCE_SEED = 1001,

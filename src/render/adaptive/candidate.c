@@ -297,6 +297,7 @@ static void pool_blocks(aur_candidate *candidate) {
         aur_block_spread *const pool = &candidate->blocks[b];
         const double fall = fall_of(&sum, earlier[b] / targets[b]), half = candidate->rounds > 1 ? 0.5 : 1.0;
         pool->variance = half * now->variance + (1.0 - half) * pool->variance * fall;
+        pool->own = half * now->own + (1.0 - half) * pool->own * fall * fall;
         pool->spread = half * now->spread + (1.0 - half) * pool->spread * fall * fall;
         pooled += pool->variance;
     }

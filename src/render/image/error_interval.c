@@ -17,15 +17,18 @@ typedef struct gram_sums {
     double traces, squares, diagonal;
 } gram_sums;
 
-static gram_sums sums_of(const aur_gram *pixel) {
-    gram_sums sums = {.traces = 0.0};
-    for (size_t r = 0; r < pixel->count; ++r) {
-        sums.traces += pixel->products[r][r];
-        sums.diagonal += pixel->products[r][r] * pixel->products[r][r];
-        for (size_t s = 0; s < pixel->count; ++s)
-            sums.squares += pixel->products[r][s] * pixel->products[r][s];
+static gram_sums sums_between(size_t count, const double *a, const double *b) {
+    gram_sums sums = {.squares = 0.0};
+    double trace_a = 0.0, trace_b = 0.0;
+    for (size_t r = 0; r < count; ++r, ++a, ++b) {
+        for (size_t s = 0; s < r; ++s, ++a, ++b)
+            sums.squares += 2.0 * *a * *b;
+        sums.squares += *a * *b;
+        sums.diagonal += *a * *b;
+        trace_a += *a;
+        trace_b += *b;
     }
-    sums.traces *= sums.traces;
+    sums.traces = trace_a * trace_b;
     return sums;
 }
 
@@ -40,17 +43,7 @@ static double spread_of(size_t count, const gram_sums *sums) {
 
 /* Of the covariances of one block's values with another's, or with themselves. */
 static double spread_between(size_t count, const double *a, const double *b) {
-    gram_sums sums = {.squares = 0.0};
-    double trace_a = 0.0, trace_b = 0.0;
-    for (size_t r = 0; r < count; ++r, ++a, ++b) {
-        for (size_t s = 0; s < r; ++s, ++a, ++b)
-            sums.squares += 2.0 * *a * *b;
-        sums.squares += *a * *b;
-        sums.diagonal += *a * *b;
-        trace_a += *a;
-        trace_b += *b;
-    }
-    sums.traces = trace_a * trace_b;
+    const gram_sums sums = sums_between(count, a, b);
     return spread_of(count, &sums);
 }
 
@@ -70,9 +63,10 @@ void aur_blocks_measure(size_t count, size_t columns, size_t rows, const double 
     const size_t block_count = columns * rows, stride = AUR_GRAM_ENTRIES(count);
     for (size_t i = 0; i < block_count; ++i) {
         const double *const own = products + i * stride;
-        blocks[i] = (aur_block_spread){.spread = spread_between(count, own, own)};
+        blocks[i].own = blocks[i].spread = spread_between(count, own, own);
+        blocks[i].variance = 0.0;
         for (size_t r = 0; r < count; ++r)
-            blocks[i].variance += own[AUR_GRAM_ENTRIES(r + 1) - 1] / (double)(count - 1);
+            blocks[i].variance += own[AUR_GRAM_SQUARE(r)] / (double)(count - 1);
     }
     for (size_t k = 0; k < FORWARDS; ++k)
         for (size_t i = 0; i < block_count; ++i) {
@@ -88,30 +82,35 @@ void aur_blocks_measure(size_t count, size_t columns, size_t rows, const double 
 void aur_deviations_set_blocks(aur_deviations *sum, size_t columns, size_t rows,
                                const aur_block_spread *blocks) {
     const size_t block_count = columns * rows;
+    double common = 0.0, most = 0.0, products = 0.0; /* of pairs of neighbours */
     sum->blocks = sum->square_blocks = 0.0;
     for (size_t i = 0; i < block_count; ++i) {
-        const double own = blocks[i].spread;
-        sum->blocks += own;
-        sum->square_blocks += own * own;
+        sum->blocks += blocks[i].spread;
+        sum->square_blocks += blocks[i].spread * blocks[i].spread;
+        common += 0.5 * (blocks[i].spread - blocks[i].own);
         for (size_t k = 0; k < FORWARDS; ++k) {
             const size_t j = neighbour_of(columns, rows, i, FORWARD[k]);
-            sum->square_blocks += j < block_count ? 2.0 * own * blocks[j].spread : 0.0;
+            if (j == block_count)
+                continue;
+            most += sqrt(fmax(blocks[i].own, 0.0) * fmax(blocks[j].own, 0.0));
+            products += 2.0 * blocks[i].spread * blocks[j].spread;
         }
     }
+    sum->square_blocks += most > 0.0 ? fmin(fmax(common / most, 0.0), 1.0) * products : products;
 }
 
-void aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel, double d[3][AUR_REPLICAS_MAX],
+void aur_deviations_add_pixel(aur_deviations *sum, const double *products, double d[3][AUR_REPLICAS_MAX],
                               double others, aur_cell *cell) {
-    const gram_sums sums = sums_of(pixel);
-    for (size_t r = 0; r < pixel->count; ++r)
-        sum->trace += pixel->products[r][r];
+    const gram_sums sums = sums_between(cell->count, products, products);
+    for (size_t r = 0; r < cell->count; ++r)
+        sum->trace += products[AUR_GRAM_SQUARE(r)];
     sum->others += others;
     for (size_t a = 0; a < 3; ++a)
         for (size_t b = 0; b < 3; ++b)
-            for (size_t r = 0; r < pixel->count; ++r)
+            for (size_t r = 0; r < cell->count; ++r)
                 cell->products[a][b] += d[a][r] * d[b][r];
     cell->squares += sums.squares;
-    cell->spread += spread_of(pixel->count, &sums);
+    cell->spread += spread_of(cell->count, &sums);
     ++cell->pixels;
 }
 
@@ -142,10 +141,9 @@ typedef struct spread_estimate {
     double spread, degrees;
 } spread_estimate;
 
-/* The relative variance of a spread is two divided by its degrees. For normal values, a block and its
- * neighbours together have as many as there are independent differences of four replicas, count (count - 3) /
- * 2 (two for three replicas, Wishart), and its square is one plus that variance times as large as expected.
- */
+/* The relative variance of a spread is two divided by its degrees. For normal values, blocks that
+ * deviate together have as many as there are independent differences of four replicas, count (count - 3) / 2
+ * (two for three replicas, Wishart), and its square is one plus that variance times as large as expected. */
 static spread_estimate spread_of_blocks(const aur_deviations *sum, double one) {
     return (spread_estimate){sum->blocks, (one + 2.0) * sum->blocks * sum->blocks / sum->square_blocks};
 }

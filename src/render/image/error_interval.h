@@ -7,16 +7,10 @@
 
 enum { AUR_REPLICAS_MAX = 16, AUR_CELL_SIDE = 2, AUR_CELL_PIXELS = AUR_CELL_SIDE * AUR_CELL_SIDE };
 
-/* Products of the deviations of `count` images from their mean, summed over a pixel's channels: a Gram
- * matrix.
- */
-typedef struct aur_gram {
-    size_t count;
-    double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
-} aur_gram;
-
-/* The different entries of a Gram matrix: those of image r with images 0 to r, in order. */
+/* The different entries of a Gram matrix, the products of images' deviations from their mean: those of image
+ * r with images 0 to r, in order. The last is the square of r itself. */
 #define AUR_GRAM_ENTRIES(count) ((count) * ((count) + 1) / 2)
+#define AUR_GRAM_SQUARE(r) (AUR_GRAM_ENTRIES((r) + 1) - 1)
 
 /* Sums over an image's pixels. C is the covariance of one replica's values. Initialise with zeros and
  * `overlap`. */
@@ -24,17 +18,18 @@ typedef struct aur_deviations {
     double trace;         /* the sum of tr W; expectation (count - 1) tr C */
     double others;        /* the same of the jackknife's deviations, where the error measure is not linear */
     double blocks;        /* the sum of the blocks' estimates of their shares of tr C^2 */
-    double square_blocks; /* of their products with themselves and their neighbours, as if these deviate
-                             together */
+    double square_blocks; /* of their squares, and of their products with their neighbours as far as these
+                             deviate together */
     double cells;         /* the sum of the cells' estimates of tr C^2 */
     double square_cells;  /* the sum of their squares */
     double overlap;       /* tr C^2 over the pixels' part, where they share samples whose noise is white */
 } aur_deviations;
 
-/* A replica's values in a block of pixels: tr C there, and the block's share of tr C^2, the sum of the
- * squares of covariances of its values with each other and with those of the up to eight blocks around it. */
+/* A replica's values in a block of pixels: tr C there, the sum of the squares of covariances of its values
+ * with each other, and the block's share of tr C^2: that and the same with values of the up to eight blocks
+ * around it. */
 typedef struct aur_block_spread {
-    double variance, spread;
+    double variance, own, spread;
 } aur_block_spread;
 
 /* Let Y be the deviations from the expectation. The error of the mean and its estimate from the replicas'
@@ -48,7 +43,9 @@ typedef struct aur_block_spread {
 void aur_blocks_measure(size_t count, size_t columns, size_t rows, const double *products,
                         aur_block_spread *blocks);
 
-/* Sets the blocks' part of the sum. */
+/* Sets the blocks' part of the sum. How far neighbours deviate together is the sum of what they have in
+ * common over the root mean square of what each has alone, in all pairs: 0 for independent blocks, 1 for
+ * those that one source of noise covers. */
 void aur_deviations_set_blocks(aur_deviations *sum, size_t columns, size_t rows,
                                const aur_block_spread *blocks);
 
@@ -60,8 +57,9 @@ typedef struct aur_cell {
 } aur_cell;
 
 /* Adds a pixel with deviations d[channel][replica] to its cell and to the sum, its tr C^2 from sets of four
- * as for a block. `others` is tr W of the jackknife's deviations. */
-void aur_deviations_add_pixel(aur_deviations *sum, const aur_gram *pixel, double d[3][AUR_REPLICAS_MAX],
+ * as for a block. `products` are the entries of its Gram matrix; `others` is tr W of the jackknife's
+ * deviations. */
+void aur_deviations_add_pixel(aur_deviations *sum, const double *products, double d[3][AUR_REPLICAS_MAX],
                               double others, aur_cell *cell);
 
 /* Where few replicas meet a pixel's light, sets of four seldom show its variance. Its neighbours' replicas

@@ -202,7 +202,7 @@ void aur_replicas_mean(const aur_replicas *replicas, double (*light)[3], double 
 /* Each replica's variance of one sample of a pixel, by the deviations of the other replicas from their mean.
  * Their sum of squares is the one about the mean of all, without the replica's part, and has count - 2
  * degrees. */
-static void find_variances(const aur_replicas *replicas, size_t pixel, const aur_gram *gram,
+static void find_variances(const aur_replicas *replicas, size_t pixel, const double *products,
                            double *variances) {
     const double others = (double)(replicas->count - 1);
     double shares[AUR_REPLICAS_MAX], all = 0.0, squares = 0.0; /* one over the replicas' samples */
@@ -210,21 +210,18 @@ static void find_variances(const aur_replicas *replicas, size_t pixel, const aur
         const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
         shares[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
         all += shares[r];
-        squares += gram->products[r][r];
+        squares += products[AUR_GRAM_SQUARE(r)];
     }
     for (size_t r = 0; r < replicas->count; ++r)
         variances[r * replicas->pixel_count + pixel] =
-            fmax(squares - gram->products[r][r] * (others + 1.0) / others, 0.0) * others /
+            fmax(squares - products[AUR_GRAM_SQUARE(r)] * (others + 1.0) / others, 0.0) * others /
             ((others - 1.0) * (all - shares[r]));
 }
 
-/* Only the products of `count` replicas are set. */
-static void find_gram(size_t count, double d[3][AUR_REPLICAS_MAX], aur_gram *gram) {
-    gram->count = count;
+static void find_products(size_t count, double d[3][AUR_REPLICAS_MAX], double *products) {
     for (size_t r = 0; r < count; ++r)
         for (size_t s = 0; s <= r; ++s)
-            gram->products[r][s] = gram->products[s][r] =
-                d[0][r] * d[0][s] + d[1][r] * d[1][s] + d[2][r] * d[2][s];
+            *products++ = d[0][r] * d[0][s] + d[1][r] * d[1][s] + d[2][r] * d[2][s];
 }
 
 /* The sums of a block, and what all its pixels have in common. */
@@ -243,27 +240,26 @@ static void measure_pixel(block_sums *block, size_t pixel, aur_cell *cell) {
     const aur_replicas *const replicas = block->replicas;
     const size_t count = replicas->count;
     double d[3][AUR_REPLICAS_MAX], single[3][AUR_REPLICAS_MAX], means[3];
-    aur_gram gram;
+    double products[AUR_GRAM_ENTRIES(AUR_REPLICAS_MAX)];
     find_deviations(count, replicas->pixel_count, block->light + pixel, means, d);
     for (size_t channel = 0; channel < 3; ++channel)
         block->measure->mean += means[channel];
     if (!block->linear)
         memcpy(single, d, sizeof d);
     aur_replicas_weigh(count, block->weighing, pixel, means, d);
-    find_gram(count, d, &gram);
+    find_products(count, d, products);
     if (block->variances != NULL)
-        find_variances(replicas, pixel, &gram, block->variances);
+        find_variances(replicas, pixel, products, block->variances);
     double others = 0.0;
     for (size_t r = 0; r < count; ++r)
-        others += gram.products[r][r];
+        others += products[AUR_GRAM_SQUARE(r)];
     if (!block->linear) {
         weigh_steps(count, block->weighing, pixel, 1.0, means, single);
-        find_gram(count, single, &gram);
+        find_products(count, single, products);
     }
-    aur_deviations_add_pixel(&block->measure->deviations, &gram, block->linear ? d : single, others, cell);
-    for (size_t r = 0, k = 0; r < count; ++r)
-        for (size_t s = 0; s <= r; ++s)
-            block->products[k++] += gram.products[r][s];
+    aur_deviations_add_pixel(&block->measure->deviations, products, block->linear ? d : single, others, cell);
+    for (size_t k = 0; k < AUR_GRAM_ENTRIES(count); ++k)
+        block->products[k] += products[k];
 }
 
 /* Adds the pixels of a cell to its block and the measure. */

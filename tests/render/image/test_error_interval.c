@@ -34,17 +34,15 @@ static double deviations_of(size_t count, double *d) {
 
 /* Adds the products of a pixel's deviations to those of its block, and its spread to `cell` and `sum`. */
 static void add_pixel(size_t count, const double *d, double *block, aur_deviations *sum, aur_cell *cell) {
-    aur_gram gram = {.count = count};
-    double squares = 0.0, channels[3][AUR_REPLICAS_MAX] = {{0.0}};
+    double products[AUR_GRAM_ENTRIES(AUR_REPLICAS_MAX)], squares = 0.0,
+                                                         channels[3][AUR_REPLICAS_MAX] = {{0.0}};
     for (size_t r = 0; r < count; ++r) {
         channels[0][r] = d[r];
         squares += d[r] * d[r];
-        for (size_t s = 0; s < count; ++s)
-            gram.products[r][s] = d[r] * d[s];
         for (size_t s = 0; s <= r; ++s)
-            block[AUR_GRAM_ENTRIES(r) + s] += gram.products[r][s];
+            block[AUR_GRAM_ENTRIES(r) + s] += products[AUR_GRAM_ENTRIES(r) + s] = d[r] * d[s];
     }
-    aur_deviations_add_pixel(sum, &gram, channels, squares, cell);
+    aur_deviations_add_pixel(sum, products, channels, squares, cell);
 }
 
 /* Adds a cell that has all its pixels, and begins another. */
@@ -284,6 +282,39 @@ static void test_holds_where_pixels_share_samples(void **state) {
     assert_in_range(held, 0.93 * TRIALS - 57, 0.97 * TRIALS + 38);
 }
 
+/* Two blocks side by side: with one source of noise they count like one block; independent ones, of which
+ * each has a sum of squares as large, like two, up to chance that more trials reduce. */
+static void test_counts_what_blocks_have_in_common(void **state) {
+    (void)state;
+    enum { COUNT = AUR_REPLICAS_MAX, VALUES_OF_BLOCK = 16, MANY = 400 };
+    double together = 0.0, apart = 0.0;
+    for (uint64_t trial = 0; trial < MANY; ++trial) {
+        double products[2][2][AUR_GRAM_ENTRIES(COUNT)] = {{{0.0}}}; /* [independent][block] */
+        aur_deviations sums[2] = {{.overlap = 1.0}, {.overlap = 1.0}};
+        for (size_t i = 0; i < 2 * VALUES_OF_BLOCK; ++i)
+            for (size_t independent = 0; independent < 2; ++independent) {
+                double d[COUNT];
+                const size_t value = independent == 1 ? i : i % VALUES_OF_BLOCK;
+                for (size_t r = 0; r < COUNT; ++r)
+                    d[r] = normal(trial, value * COUNT + r);
+                deviations_of(COUNT, d);
+                for (size_t r = 0; r < COUNT; ++r)
+                    for (size_t s = 0; s <= r; ++s)
+                        products[independent][i / VALUES_OF_BLOCK][AUR_GRAM_ENTRIES(r) + s] += d[r] * d[s];
+            }
+        for (size_t independent = 0; independent < 2; ++independent) {
+            aur_block_spread blocks[2];
+            aur_blocks_measure(COUNT, 2, 1, products[independent][0], blocks);
+            aur_deviations_set_blocks(&sums[independent], 2, 1, blocks);
+        }
+        together += sums[0].square_blocks / (sums[0].blocks * sums[0].blocks) / MANY;
+        apart += sums[1].square_blocks / (sums[1].blocks * sums[1].blocks) / MANY;
+    }
+    print_message("squares over the square of the sum: together %.3f, apart %.3f\n", together, apart);
+    assert_relative(together, 1.0, 1e-12);
+    assert_true(apart > 0.5 && apart < 0.6);
+}
+
 /* Of blocks or cells. */
 static void test_takes_the_larger_spread(void **state) {
     (void)state;
@@ -342,21 +373,17 @@ static void test_pairs_of_a_cell(void **state) {
     aur_cell cell = {.count = COUNT};
     double d[AUR_CELL_PIXELS][3][AUR_REPLICAS_MAX], expected = 0.0;
     for (size_t p = 0; p < AUR_CELL_PIXELS; ++p) {
-        aur_gram gram = {.count = COUNT};
-        double products[AUR_GRAM_ENTRIES(COUNT)];
+        double products[AUR_GRAM_ENTRIES(COUNT)] = {0.0};
         aur_block_spread pixel;
         for (size_t c = 0; c < 3; ++c) {
             for (size_t r = 0; r < COUNT; ++r)
                 d[p][c][r] = normal(5, (p * 3 + c) * COUNT + r);
             deviations_of(COUNT, d[p][c]);
             for (size_t r = 0; r < COUNT; ++r)
-                for (size_t s = 0; s < COUNT; ++s)
-                    gram.products[r][s] += d[p][c][r] * d[p][c][s];
+                for (size_t s = 0; s <= r; ++s)
+                    products[AUR_GRAM_ENTRIES(r) + s] += d[p][c][r] * d[p][c][s];
         }
-        aur_deviations_add_pixel(&sum, &gram, d[p], 0.0, &cell);
-        for (size_t r = 0, k = 0; r < COUNT; ++r)
-            for (size_t s = 0; s <= r; ++s)
-                products[k++] = gram.products[r][s];
+        aur_deviations_add_pixel(&sum, products, d[p], 0.0, &cell);
         aur_blocks_measure(COUNT, 1, 1, products, &pixel); /* compared with all sets of four in test_fours */
         expected += pixel.spread / AUR_CELL_PIXELS;
     }
@@ -418,6 +445,7 @@ int main(void) {
                                        cmocka_unit_test(test_of_one_value),
                                        cmocka_unit_test(test_of_clipped_values),
                                        cmocka_unit_test(test_holds_where_pixels_share_samples),
+                                       cmocka_unit_test(test_counts_what_blocks_have_in_common),
                                        cmocka_unit_test(test_takes_the_larger_spread),
                                        cmocka_unit_test(test_fours),
                                        cmocka_unit_test(test_pairs_of_a_cell),
