@@ -89,8 +89,6 @@ void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]) {
 
 /* --- edges */
 
-enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
-
 /* Pixels; no filter of ours reaches farther. */
 enum { SIDE = AUR_TILE_SIZE, MOST_REACH = 2, MOST_SIDE = SIDE + 2 * MOST_REACH };
 
@@ -184,7 +182,7 @@ static void find_surroundings(const aur_gather_plan *plan, size_t left, size_t t
 /* The strongest edge among what the pixels within reach see. The pixel's samples do not count: otherwise
  * pixels that hit a small light by chance would be refined and lower their estimate, and those that missed it
  * would not raise theirs. */
-static int edge_at(const surroundings *self, size_t x, size_t y) {
+static aur_gather_edge edge_at(const surroundings *self, size_t x, size_t y) {
     glance all = {0};
     const size_t across = 2 * self->reach + 1;
     for (size_t i = 0; i < across * across; ++i) {
@@ -196,8 +194,8 @@ static int edge_at(const surroundings *self, size_t x, size_t y) {
         all.light = all.light || other->light;
     }
     if (!all.several)
-        return NO_EDGE;
-    return all.light ? LIGHT_EDGE : PLAIN_EDGE;
+        return AUR_NO_EDGE;
+    return all.light ? AUR_LIGHT_EDGE : AUR_PLAIN_EDGE;
 }
 
 /* With a wide filter, pixels see a little beyond their direct neighbours, with few samples there: a ring of
@@ -214,7 +212,8 @@ static bool is_emitter_edge(const aur_gather_plan *plan, const aur_view *view, s
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool equal_counts, aur_gather_edges *edges) {
+                           const aur_pixel_strata *strata, bool equal_counts,
+                           aur_gather_edge edges[AUR_TILE_PIXELS]) {
     const size_t reach = reach_of(view->filter);
     surroundings all;
     all.view = view;
@@ -222,16 +221,13 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
     all.reach = reach;
     all.side = SIDE + 2 * reach;
     find_surroundings(plan, x, y, equal_counts, &all);
-    *edges = (aur_gather_edges){0};
-    for (uint32_t surface_point = 0; surface_point < AUR_GROUP_COUNT; ++surface_point)
-        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const size_t pixel = aur_group_pixel(0, surface_point, lane);
-            if (strata[pixel].count == 0)
-                continue;
-            const int edge = is_emitter_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
-                                 ? LIGHT_EDGE
-                                 : edge_at(&all, pixel % SIDE, pixel / SIDE);
-            edges->any[surface_point] |= (uint32_t)(edge != NO_EDGE) << lane;
-            edges->lights[surface_point] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
-        }
+    for (size_t pixel = 0; pixel < AUR_TILE_PIXELS; ++pixel) {
+        const size_t column = pixel % SIDE, row = pixel / SIDE;
+        if (strata[pixel].count == 0)
+            edges[pixel] = AUR_NO_EDGE;
+        else if (is_emitter_edge(plan, view, x + column, y + row))
+            edges[pixel] = AUR_LIGHT_EDGE;
+        else
+            edges[pixel] = edge_at(&all, column, row);
+    }
 }

@@ -48,16 +48,15 @@ void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]);
  * it sees of each, not from their reflected light. Such pixels get extra camera rays that only find which
  * surface they hit. The fractions that these rays find weigh the means of the shaded samples.
  *
- * Masks for aur_group_lanes_marked: pixels of a tile whose neighbours see more than one surface. */
-typedef struct aur_gather_edges {
-    uint32_t any[AUR_GROUP_COUNT];
-    uint32_t lights[AUR_GROUP_COUNT]; /* those where one of the surfaces is a light */
-} aur_gather_edges;
+ * What the neighbours of a pixel see: one surface, several, or several of which one is a light. */
+typedef enum aur_gather_edge { AUR_NO_EDGE, AUR_PLAIN_EDGE, AUR_LIGHT_EDGE } aur_gather_edge;
 
-/* `strata` are those of the tile at (x, y). `equal_counts`: all of its pixels have equally many samples; if
- * not, one ray is traced for each of them. One ray is also traced for each pixel around the tile. */
+/* Edges of the pixels with samples, row by row; `strata` are those of the tile at (x, y). `equal_counts`: all
+ * of its pixels have equally many samples; if not, one ray is traced for each of them. One ray is also traced
+ * for each pixel around the tile. */
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool equal_counts, aur_gather_edges *edges);
+                           const aur_pixel_strata *strata, bool equal_counts,
+                           aur_gather_edge edges[AUR_TILE_PIXELS]);
 
 /* Pooled irradiance: one joint pattern is split among the pixels of a 4 x 4 block, the same way in all
  * blocks. Gathered irradiance is pooled among pixels that see one surface (a discontinuity buffer: Wald,

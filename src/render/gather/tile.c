@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -331,34 +332,72 @@ static void add_group(gather_tile *work, uint32_t lanes) {
 
 /* --- the tile */
 
-static bool any_marked(const uint32_t marks[AUR_GROUP_COUNT]) {
-    uint32_t all = 0;
-    for (size_t group = 0; group < AUR_GROUP_COUNT; ++group)
-        all |= marks[group];
-    return all != 0;
+/* The rays at a light's edge for the first `samples` samples of a pixel. The variance of what a sequence of n
+ * rays measures falls as n^(-3/2) (Owen 1997), the rest of the pixel's as one over its samples: it stays in
+ * proportion. */
+static double rays_at_edge(const aur_gather_plan *plan, uint32_t samples) {
+    const double patterns = (double)samples / (double)plan->samples_per_pattern;
+    return (double)plan->policy.edge_samples * cbrt(patterns * patterns);
 }
 
-/* Samples that measure how much pixels see of the surfaces at an edge. Edges that do not involve a light get
- * a small part of them. */
-static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
-    enum { PLAIN_EDGE_PART = 64 };
-    const uint32_t count = work->surface_points.plan->policy.edge_samples;
+/* The rays of a pixel at an edge that come with its samples of this step, as numbers in its sequence. Edges
+ * that do not involve a light get a small part of them. */
+typedef struct edge_rays {
+    uint32_t begin, end;
+} edge_rays;
+
+static edge_rays find_edge_rays(const gather_tile *work, const aur_tile *tile, size_t pixel,
+                                aur_gather_edge edge) {
+    const double part = edge == AUR_LIGHT_EDGE ? 1.0 : 1.0 / 64, most = 0x1p30;
+    const size_t x = work->x + pixel % AUR_TILE_SIZE, y = work->y + pixel / AUR_TILE_SIZE;
+    edge_rays rays = {tile->first, tile->first + tile->count};
+    if (edge == AUR_NO_EDGE)
+        return (edge_rays){0, 0};
+    if (tile->begins != NULL) {
+        const size_t at = (y - tile->y0) * tile->stride + (x - tile->x0);
+        rays.begin = tile->begins[at] > rays.begin ? tile->begins[at] : rays.begin;
+        rays.end = tile->ends[at] < rays.end ? tile->ends[at] : rays.end;
+    }
+    const aur_gather_plan *const plan = work->surface_points.plan;
+    rays.begin = (uint32_t)fmin(floor(part * nearbyint(rays_at_edge(plan, rays.begin))), most);
+    rays.end = (uint32_t)fmin(floor(part * nearbyint(rays_at_edge(plan, rays.end))), most);
+    return rays;
+}
+
+/* Samples that measure how much pixels see of the surfaces at an edge. Rounds continue a separate sequence of
+ * them, so that none repeats what an earlier one measured; the first continues its samples' sequence. */
+static aur_result refine_edges(gather_tile *work, aur_tile *tile, bool regroups) {
+    const uint32_t origin = tile->begins != NULL || tile->first > 0 ? UINT32_C(1) << 31 : tile->count;
     aur_counters *const counters = work->sums.counters;
     const uint64_t before = aur_rays_traced;
-    aur_gather_edges edges;
+    aur_gather_edge edges[AUR_TILE_PIXELS];
+    edge_rays rays[AUR_TILE_PIXELS], all = {UINT32_MAX, 0};
     aur_gather_find_edges(work->surface_points.plan, work->view, work->x, work->y, work->strata,
-                          tile->begins == NULL, &edges);
+                          tile->begins == NULL, edges);
+    for (size_t pixel = 0; pixel < AUR_TILE_PIXELS; ++pixel) {
+        rays[pixel] = find_edge_rays(work, tile, pixel, edges[pixel]);
+        if (rays[pixel].begin >= rays[pixel].end)
+            continue;
+        all.begin = rays[pixel].begin < all.begin ? rays[pixel].begin : all.begin;
+        all.end = rays[pixel].end > all.end ? rays[pixel].end : all.end;
+    }
     work->only_new = true;
-    const uint32_t plain = any_marked(edges.any) ? count / PLAIN_EDGE_PART : 0;
-    const uint32_t end = any_marked(edges.lights) ? count : plain;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
-        for (uint32_t i = 0; i < end; ++i) {
+        for (uint32_t i = all.begin; i < all.end; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
-            choose(work, group, tile->first + tile->count + i);
-            add_samples(work, aur_group_lanes_marked(work->arrangement, group,
-                                                     i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
+            choose(work, group, origin + i);
+            uint32_t lanes = 0;
+            for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+                const edge_rays *const own = &rays[work->surface_points.place[lane]];
+                lanes |= (uint32_t)(i >= own->begin && i < own->end) << lane;
+            }
+            if (regroups)
+                queue_samples(work, lanes);
+            else
+                add_samples(work, lanes);
         }
+    add_waiting(work);
     counters->edge_rays += aur_rays_traced - before;
     return AUR_OK;
 }
@@ -383,7 +422,7 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
                 add_group(work, lanes);
         }
     add_waiting(work);
-    return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
+    return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile, regroups) : AUR_OK;
 }
 
 /* A stratum's contribution to the pixels around, per sample of its pixel. Each shaded sample counts at its

@@ -85,15 +85,6 @@ static inline uint32_t aur_group_lanes_needed(const aur_tile *tile, const size_t
     return needed;
 }
 
-/* The lanes of a group whose pixels are marked: bit `lane` of marks[i] is pixel i of that block. */
-static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
-                                              const uint32_t marks[AUR_GROUP_COUNT]) {
-    uint32_t lanes = 0;
-    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-        lanes |= marks[aur_group_pixel_index(hash, group, lane)] & 1u << lane;
-    return lanes;
-}
-
 /* The rank of a group in a 4 x 4 ordered dither, which separates close ranks: of 16 rotations of a pattern,
  * neighbouring pixels get very different ones. */
 static inline uint32_t aur_group_rank(uint32_t group) {

@@ -73,22 +73,6 @@ static void rows_and_columns_change_places_in_half_of_the_blocks(void **state) {
     assert_in_range(columns, 700, 900);
 }
 
-/* Marked pixels are lanes of the groups that have them, and of no others. */
-static void marks_find_their_group(void **state) {
-    (void)state;
-    for (uint64_t k = 0; k < 100; ++k) {
-        const uint32_t surface_point = (uint32_t)(aur_mix64(k) % AUR_GROUP_COUNT);
-        const size_t lane = aur_mix64(k) / AUR_GROUP_COUNT % AUR_PACKET_SIZE;
-        const uint64_t hash = aur_mix64(k + 100);
-        uint32_t marks[AUR_GROUP_COUNT] = {0};
-        marks[surface_point] = 1u << lane;
-        for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
-            const bool has = aur_group_pixel(hash, group, lane) == aur_group_pixel(0, surface_point, lane);
-            assert_int_equal(aur_group_lanes_marked(hash, group, marks), has ? 1u << lane : 0);
-        }
-    }
-}
-
 static void packets_preserve_rays_and_lanes(void **state) {
     (void)state;
     aur_packet packet;
@@ -123,7 +107,6 @@ int main(void) {
         cmocka_unit_test(groups_part_the_tile_by_every_arrangement),
         cmocka_unit_test(blocks_part_the_tile),
         cmocka_unit_test(rows_and_columns_change_places_in_half_of_the_blocks),
-        cmocka_unit_test(marks_find_their_group),
         cmocka_unit_test(packets_preserve_rays_and_lanes),
         cmocka_unit_test(coherent_is_one_plane),
     };
