@@ -9,7 +9,7 @@
 #include "points/base/error.h"
 #include "points/base/random.h"
 #include "render/driver/renderer.h"
-#include "render/film/film.h"
+#include "render/vertex/visible_emitters.h"
 
 enum { PIXELS = AUR_BLOCK_PIXELS, MAP_PHOTONS = 50000, RESAMPLINGS = 300, BRIEF_BLOCKS = 6 };
 /* By aureole-bench race-limits, half and twice of each limit and other confidences take the same candidates;
@@ -96,6 +96,8 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_er
             ? aur_replicas_create(race->renderer, &local, text, race->replica_count, &replicas, error)
             : aur_fail_memory(error);
     const uint64_t prepared = aur_rays_traced - before;
+    if (result == AUR_OK)
+        race->layout = aur_render_film(replicas.renders[0])->layout;
     const bool around = result == AUR_OK && reads_neighbours(row, &replicas);
     for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b)
         set_targets(race, b, around ? 1 : 0, aur_race_rows[row].samples, targets);
@@ -138,6 +140,70 @@ static void mean_of_blocks(const aur_race *race, size_t blocks, double (*means)[
         for (size_t c = 0; c < 3; ++c)
             means[b][c] /= (double)count;
     }
+}
+
+/* What the camera sees of emitters directly, R + G + B: the mean over `count` pixels of the film. */
+static double mean_emission(aur_race *race, size_t count, const size_t *pixels) {
+    const aur_scene *const scene = aur_renderer_scene(race->renderer);
+    const aur_view view = {.scene = scene, .width = race->layout.width, .height = race->layout.height};
+    const uint64_t before = aur_rays_traced;
+    double sum = 0.0;
+    for (size_t first = 0; first < count; first += PIXELS) {
+        const size_t part = count - first < PIXELS ? count - first : PIXELS;
+        size_t x[PIXELS], y[PIXELS];
+        float emission[PIXELS];
+        for (size_t k = 0; k < part; ++k) {
+            x[k] = race->layout.x0 + pixels[first + k] % race->width;
+            y[k] = race->layout.y0 + pixels[first + k] / race->width;
+        }
+        aur_emission_at_centres(&view, part, x, y, emission);
+        for (size_t k = 0; k < part; ++k)
+            sum += (double)emission[k] * (double)aur_camera_factor(scene) / (double)count;
+    }
+    race->spent.all.rays += aur_rays_traced - before;
+    race->spent.budget += aur_rays_traced - before;
+    return sum;
+}
+
+/* The same over the film, by at most 65,536 pixels. */
+static aur_result survey_emission(aur_race *race, aur_error *error) {
+    enum { MOST_PIXELS = 1 << 16 };
+    size_t step = 1, count = 0;
+    while ((race->width / step + 1) * (race->height / step + 1) > MOST_PIXELS)
+        ++step;
+    size_t *const pixels = calloc((race->width / step + 1) * (race->height / step + 1), sizeof *pixels);
+    if (pixels == NULL)
+        return aur_fail_memory(error);
+    for (size_t y = step / 2; y < race->height; y += step)
+        for (size_t x = step / 2; x < race->width; x += step)
+            pixels[count++] = y * race->width + x;
+    race->emitted = mean_emission(race, count, pixels);
+    free(pixels);
+    return AUR_OK;
+}
+
+/* The image's mean relative to the blocks'. Few blocks may have more or less of visible emitters than the
+ * image, which are much of its mean. Camera rays alone tell how much. */
+static double mean_beside_blocks(aur_race *race, size_t blocks, const double (*means)[3]) {
+    double mean = 0.0, emitted = 0.0;
+    for (size_t b = 0; b < blocks; ++b) {
+        size_t pixels[PIXELS];
+        const size_t count = pixels_of(race, b, pixels);
+        mean += (means[b][0] + means[b][1] + means[b][2]) / (double)blocks;
+        emitted += mean_emission(race, count, pixels) / (double)blocks;
+    }
+    return mean > 0.0 ? (race->emitted + fmax(mean - emitted, 0.0)) / mean : 1.0;
+}
+
+/* The weights of the blocks' means in the image. The exposure of a display depends on the geometric mean,
+ * which few bright pixels hardly change. */
+static void weigh_blocks(aur_race *race, size_t blocks, const double (*means)[3], double (*scaled)[3],
+                         aur_error_weight *weights) {
+    const double part =
+        race->measure == AUR_ERROR_MEASURE_DISPLAY ? 1.0 : mean_beside_blocks(race, blocks, means);
+    for (size_t i = 0; i < 3 * blocks; ++i)
+        scaled[i / 3][i % 3] = part * means[i / 3][i % 3];
+    aur_error_weigh(race->measure, blocks, (const double(*)[3])scaled, means, weights);
 }
 
 /* The root of the mean variance of one sample over a block's pixels. */
@@ -237,13 +303,13 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
 
 /* Sets what each candidate needs by all of its blocks, and its roots. */
 static aur_result measure(aur_race *race, size_t blocks, aur_error *error) {
-    double(*const means)[3] = calloc(blocks, sizeof *means);
+    double(*const means)[3] = calloc(2 * blocks, sizeof *means);
     aur_error_weight *const weights = calloc(blocks, sizeof *weights);
     bool allocated = means != NULL && weights != NULL;
     const size_t other = least_biased(race, blocks);
     if (allocated) {
         mean_of_blocks(race, blocks, means);
-        aur_error_weigh(race->measure, blocks, (const double(*)[3])means, (const double(*)[3])means, weights);
+        weigh_blocks(race, blocks, (const double(*)[3])means, means + blocks, weights);
     }
     for (size_t i = 0; i < AUR_RACE_ROWS && allocated; ++i) {
         double sum = 0.0;
@@ -454,7 +520,9 @@ static aur_result run(aur_race *race, aur_error *error) {
         drop(middle, "no light was found in the first blocks");
         return AUR_OK;
     }
-    result = measure(race, blocks, error);
+    result = survey_emission(race, error);
+    if (result == AUR_OK)
+        result = measure(race, blocks, error);
     if (result == AUR_OK)
         result = run_others(race, blocks, error);
     if (result == AUR_OK)

@@ -6,6 +6,7 @@
 #include <aureole-render/adaptive.h>
 
 #include "render/film/blocks.h"
+#include "render/film/film.h"
 #include "render/replicas/replicas.h"
 
 /* The rows of the table of candidates: path tracing, and the one that is used without a race. */
@@ -86,6 +87,8 @@ typedef struct aur_race {
     bool apart;     /* pixels must not share directions */
     const atomic_bool *cancelled;
     const aur_race_limits *limits; /* NULL: the default ones */
+    aur_film_layout layout;        /* of the film, once it is known */
+    double emitted; /* mean of what the camera sees of emitters directly, R + G + B over the image */
     aur_blocks blocks;
     aur_race_entry entries[AUR_RACE_ROWS];
     size_t order[AUR_RACE_ROWS]; /* measured candidates, best first; always includes path */

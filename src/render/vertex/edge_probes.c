@@ -133,23 +133,33 @@ typedef struct survey {
     float *deviations; /* of what they send to a sample of each */
 } survey;
 
-static aur_result survey_centres(void *context, size_t y) {
-    const survey *const s = context;
+void aur_emission_at_centres(const aur_view *view, size_t count, const size_t *x, const size_t *y,
+                             float *emission) {
     aur_packet packet;
+    float across[AUR_PACKET_SIZE], down[AUR_PACKET_SIZE];
     aur_packet_clear(&packet);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        across[k] = (float)x[k < count ? k : 0] + 0.5f;
+        down[k] = (float)y[k < count ? k : 0] + 0.5f;
+    }
+    make_rays(view, count, across, down, &packet);
+    const uint32_t hits = aur_scene_intersect16(view->scene, AUR_EMBREE_COHERENT, &packet);
+    for (size_t k = 0; k < count; ++k) {
+        const aur_vector light = emission_at(view->scene, &packet, k, (hits >> k & 1u) != 0);
+        emission[k] = light.x + light.y + light.z;
+    }
+}
+
+static aur_result survey_centres(void *context, size_t row) {
+    const survey *const s = context;
     for (size_t x0 = 0; x0 < s->view->width; x0 += AUR_PACKET_SIZE) {
         const size_t rest = s->view->width - x0, count = rest < AUR_PACKET_SIZE ? rest : AUR_PACKET_SIZE;
-        float across[AUR_PACKET_SIZE], down[AUR_PACKET_SIZE];
-        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-            across[k] = (float)(x0 + (k < count ? k : 0)) + 0.5f;
-            down[k] = (float)y + 0.5f;
-        }
-        make_rays(s->view, count, across, down, &packet);
-        const uint32_t hits = aur_scene_intersect16(s->view->scene, AUR_EMBREE_COHERENT, &packet);
+        size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
         for (size_t k = 0; k < count; ++k) {
-            const aur_vector light = emission_at(s->view->scene, &packet, k, (hits >> k & 1u) != 0);
-            s->centres[y * s->view->width + x0 + k] = light.x + light.y + light.z;
+            x[k] = x0 + k;
+            y[k] = row;
         }
+        aur_emission_at_centres(s->view, count, x, y, s->centres + row * s->view->width + x0);
     }
     return AUR_OK;
 }

@@ -63,6 +63,11 @@ aur_result aur_edge_probes_find(const aur_view *view, double rays, const aur_int
 bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, size_t y, uint32_t index,
                     aur_vector *emission);
 
+/* Emitted radiance, the sum of R, G and B, that the camera sees at the centres of `count` <= 16 pixels of the
+ * whole image. Only the scene and the size of the view count. */
+void aur_emission_at_centres(const aur_view *view, size_t count, const size_t *x, const size_t *y,
+                             float *emission);
+
 /* Emitters as small as a few pixels, which the first samples of a pixel and of its neighbours may all miss.
  * Points sampled on the emitters show where their edges cross pixels, before any sample is drawn. Larger
  * emitters are seen by all pixels next to their edges. */
