@@ -36,7 +36,7 @@ struct aur_adaptive {
 };
 
 /* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is
- * named, so the race may choose. Errors: MEMORY. */
+ * named, nor hides the scene's what final gathering shows, so the race may choose. Errors: MEMORY. */
 aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
                                       bool *open, aur_error *error);
 

@@ -20,7 +20,8 @@ static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene
     const aur_render *const render = candidate->replicas.renders[0];
     const aur_integrator *const integrator = aur_render_integrator(render);
     const aur_film_layout *const layout = &aur_render_film(render)->layout;
-    if (!integrator->descriptor->shows_emitters || candidate->replicas.count == 1)
+    if (!integrator->descriptor->shows_emitters || integrator->hides_emitters ||
+        candidate->replicas.count == 1)
         return AUR_OK;
     const aur_result found =
         aur_visible_emitters_find(scene, layout, AUR_EMITTER_POINTS, seed, &candidate->visible, error);

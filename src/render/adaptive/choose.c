@@ -36,17 +36,30 @@ static bool renders_other_quantity(const char *name) {
 
 aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
                                       bool *open, aur_error *error) {
+    /* Keys of the scene's integrator on which the image depends; what final gathering has not, keeps it out.
+     */
+    static const struct {
+        const char *name, *unset;
+        bool gathers;
+    } keys[] = {{"max_depth", NULL, true}, {"hide_emitters", "false", false}, {"clamp", "0", false}};
     *integrator = NULL;
     *open = false;
     if (requested == NULL && renders_other_quantity(aur_scene_integrator(scene)->plugin))
         return AUR_OK;
-    *open = requested == NULL && !aur_scene_has_media(scene);
-    const char *const depth = requested == NULL ? aur_scene_max_depth(scene) : NULL;
-    *integrator = aur_new_text("%s%s%s",
-                               requested != NULL            ? requested
-                               : aur_scene_has_media(scene) ? "volpath"
-                                                            : "path",
-                               depth != NULL ? ":max_depth=" : "", depth != NULL ? depth : "");
+    const bool media = aur_scene_has_media(scene);
+    bool first = true;
+    *open = requested == NULL && !media;
+    *integrator = aur_new_text("%s", requested != NULL ? requested : media ? "volpath" : "path");
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0] && requested == NULL && *integrator != NULL; ++i) {
+        const char *const value = aur_scene_integrator_key(scene, keys[i].name);
+        if (value == NULL || (keys[i].unset != NULL && strcmp(value, keys[i].unset) == 0))
+            continue;
+        char *const longer = aur_new_text("%s%s%s=%s", *integrator, first ? ":" : ",", keys[i].name, value);
+        free(*integrator);
+        *integrator = longer;
+        *open = *open && keys[i].gathers;
+        first = false;
+    }
     return *integrator != NULL ? AUR_OK : aur_fail_memory(error);
 }
 

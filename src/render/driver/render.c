@@ -99,7 +99,7 @@ static aur_integrator_context context_of(const aur_render *render) {
 
 /* Adds a model's limit of path lengths to an integrator that sets none. */
 static aur_result limit_depth(const aur_scene *scene, aur_parameters *parameters, aur_error *error) {
-    const char *const depth = aur_scene_is_model(scene) ? aur_scene_max_depth(scene) : NULL;
+    const char *const depth = aur_scene_is_model(scene) ? aur_scene_integrator_key(scene, "max_depth") : NULL;
     if (depth == NULL || aur_parameters_find(parameters, "max_depth") != NULL)
         return AUR_OK;
     return aur_parameters_add_text(parameters, AUR_PARAMETER_INTEGER, "max_depth", depth,

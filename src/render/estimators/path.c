@@ -39,6 +39,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
      * are sampled. */
     if (aur_parameters_find(parameters, "lamp_rays") == NULL)
         data->probe_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
+    integrator->hides_emitters = data->hide_emitters;
     aur_clamp_prepare(data->clamp, integrator);
     return aur_path_prepare(data, context->scene, error);
 }

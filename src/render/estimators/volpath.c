@@ -20,6 +20,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     aur_volume_path *const data = integrator->data;
     (void)parameters, (void)error;
     data->passes = aur_panes_exist(context->scene);
+    integrator->hides_emitters = data->hide_emitters;
     aur_clamp_prepare(data->clamp, integrator);
     return AUR_OK;
 }

@@ -87,6 +87,7 @@ struct aur_integrator {
     void *prepared;             /* by create, where it is not in `data` */
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
     bool whole_tiles;           /* all pixels of a tile have the same number of samples */
+    bool hides_emitters;        /* from camera rays */
     bool refines_emitter_edges; /* traces more rays in a pixel whose neighbours see the edge of an emitter */
     uint32_t samples_a_pattern; /* samples of a pixel that form one pattern; 0: no patterns */
     const uint16_t

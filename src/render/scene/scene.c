@@ -329,9 +329,9 @@ const char *aur_scene_sampler(const aur_scene *scene) {
     return scene->sampler;
 }
 
-const char *aur_scene_max_depth(const aur_scene *scene) {
+const char *aur_scene_integrator_key(const aur_scene *scene, const char *key) {
     for (size_t i = 0; i < scene->integrator.count; ++i)
-        if (strcmp(scene->integrator.items[i].name, "max_depth") == 0)
+        if (strcmp(scene->integrator.items[i].name, key) == 0)
             return scene->integrator.items[i].text;
     return NULL;
 }

@@ -308,8 +308,8 @@ size_t aur_scene_samples_per_pixel(const aur_scene *scene);
 const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator of the scene file; its plugin may be unsupported. */
 const aur_parameters *aur_scene_integrator(const aur_scene *scene);
-/* Its max_depth; NULL if that is not set. */
-const char *aur_scene_max_depth(const aur_scene *scene);
+/* The text of one of its keys; NULL if that is not set. */
+const char *aur_scene_integrator_key(const aur_scene *scene, const char *key);
 /* The main file is a model: its integrator is a default, whose max_depth holds for others too. */
 bool aur_scene_is_model(const aur_scene *scene);
 

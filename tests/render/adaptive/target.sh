@@ -13,3 +13,24 @@ done >errors.txt
 # The upper end of every interval is below the target. Were its mean below .8 of it, renders would have half as many samples
 # again as they need.
 awk -v target=0.08 '{ sum += $2; if ($2 > target || $1 > $2) bad = 1 } END { print "mean of the upper ends:", sum / NR / target; exit bad || sum / NR < .8 * target }' errors.txt
+
+# What the scene's integrator hides or limits, an image to a target hides and limits too; "false" and 0 are defaults.
+lit() { # lit KEYS: a floor below a bright light source, which the camera sees
+  cat <<END
+<scene version='3.0.0'><integrator type='path'><integer name='max_depth' value='5'/>$1</integrator><sensor type='perspective'><transform
+name='to_world'><lookat origin='0,-3,1' target='0,0,.5' up='0,0,1'/></transform><film type='hdrfilm'><integer name='width' value='24'/><integer
+name='height' value='24'/></film></sensor><shape type='rectangle'/><shape type='rectangle'><transform name='to_world'><scale value='.4'/><rotate
+x='1' angle='90'/><translate z='1' y='1'/></transform><emitter type='area'><rgb name='radiance' value='10'/></emitter></shape></scene>
+END
+}
+agree() { # agree KEYS WORDS: with many samples by the scene's integrator, and names these keys
+  lit "$1" >lit.xml
+  "$aureole" render lit.xml --spp 1024 -q --no-cache -o many.exr
+  "$aureole" render lit.xml --error 3% --error-measure mean --no-cache -o few.exr 2>said.txt
+  grep -q "by $2\$" said.txt || { echo "not by $2: $(cat said.txt)"; exit 1; }
+  "$aureole" compare many.exr few.exr --json | sed -n 's/.*"relative_rmse": *\([^,}]*\).*/\1/p' |
+    awk '{ seen = 1; bad = $1 > .06 } END { exit !seen || bad }' || { echo "$1: another image"; exit 1; }
+}
+agree "<boolean name='hide_emitters' value='true'/>" path:max_depth=5,hide_emitters=true
+agree "<float name='clamp' value='.5'/>" path:max_depth=5,clamp=.5
+agree "<boolean name='hide_emitters' value='false'/><float name='clamp' value='0'/>" '[a-z]*:.*max_depth=5'
