@@ -198,6 +198,18 @@ static double find_needs(aur_candidate *candidate, double *emitters) {
     return sum;
 }
 
+double aur_candidate_rays_left(aur_candidate *candidate, double noise) {
+    double emitters, samples = 0.0;
+    if (candidate->bound <= noise)
+        return 0.0;
+    find_needs(candidate, &emitters);
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        samples += candidate->targets[i];
+    const double factor = noise * noise / (candidate->bound * candidate->bound);
+    return aur_samples_left(candidate->value_count, candidate->needs, factor, candidate->targets) / samples *
+           aur_replicas_rays(&candidate->replicas);
+}
+
 /* A single replica, and dark images, have no variances by which samples could go to some pixels. */
 static bool raise_evenly(aur_candidate *candidate, double factor) {
     bool raised = false;

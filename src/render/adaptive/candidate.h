@@ -82,6 +82,9 @@ typedef struct aur_goal {
  * its goal alone, so that a chosen candidate can be rendered again by itself. */
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
 
+/* The rays until the bound of the noise is `noise`, at the cost per sample of earlier ones. */
+double aur_candidate_rays_left(aur_candidate *candidate, double noise);
+
 /* The round planned last leads to the error of the goal, and is seldom followed by another. */
 bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal);
 
@@ -110,3 +113,7 @@ enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
  * raised: all pixels have `most` samples or no variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);
+
+/* The samples that are missing until the sum of the variances has fallen by `factor` so, in one round or
+ * many: few where most of it is in few pixels. */
+double aur_samples_left(size_t count, const double *variances, double factor, const uint32_t *targets);

@@ -254,27 +254,31 @@ static size_t rank_without_maps(const aur_race *race) {
 }
 
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,
- * and the rays of both, at the least work. The noise's square falls in proportion to one over rays, the width
- * of the bias's interval too by more samples, but to the root by more blocks. */
+ * and the rays of both, at the least work. The noise's square falls in proportion to one over rays, which go
+ * to few pixels where it is concentrated; the width of the bias's interval too by more samples, but to the
+ * root by more blocks. */
 typedef struct rest_of_work {
     double noise, bias;
     double rays; /* INFINITY: the bias is larger than the error */
 } rest_of_work;
 
-static rest_of_work find_rest(const aur_adaptive *adaptive) {
+static rest_of_work find_rest(aur_adaptive *adaptive) {
     enum { DIVISIONS = 64 };
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
     const double square = adaptive->target.error * adaptive->target.error;
     const double certain = fmax(bias->estimate - 0.5 * bias->half, 0.0);
     const double noise = adaptive->candidate.bound * adaptive->candidate.bound;
+    const double level = adaptive->level * square;
+    const double price =
+        noise > level ? aur_candidate_rays_left(&adaptive->candidate, sqrt(level)) / (noise / level - 1.0)
+                      : aur_replicas_rays(&adaptive->candidate.replicas);
     rest_of_work least = {0.0, 0.0, INFINITY};
     for (int k = 1; k < DIVISIONS && square > certain; ++k) {
         const double x = fmin((square - certain) * k / DIVISIONS, noise);
         const double growth = fmax((bias->high - certain) / (square - x - certain), 1.0);
-        const double rays =
-            (noise > x ? noise / x - 1.0 : 0.0) * aur_replicas_rays(&adaptive->candidate.replicas) +
-            (pow(growth, are_samples_due(adaptive) ? 1.0 : 2.0) - 1.0) *
-                aur_replicas_rays(&adaptive->corrections.replicas);
+        const double rays = (noise > x ? noise / x - 1.0 : 0.0) * price +
+                            (pow(growth, are_samples_due(adaptive) ? 1.0 : 2.0) - 1.0) *
+                                aur_replicas_rays(&adaptive->corrections.replicas);
         if (rays < least.rays)
             least = (rest_of_work){x, square - x, rays};
     }

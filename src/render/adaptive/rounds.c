@@ -33,6 +33,15 @@ static double spending_to(size_t count, const double *variances, double factor, 
     return 1.0 / slack;
 }
 
+double aur_samples_left(size_t count, const double *variances, double factor, const uint32_t *targets) {
+    const double spending = spending_to(count, variances, factor, targets);
+    double left = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        if (variances[i] > 0.0)
+            left += samples_at(spending, variances[i], targets[i]) - targets[i];
+    return left;
+}
+
 /* Every pixel gets at least a quarter of the mean, and half of it before it has 32 samples. Otherwise a pixel
  * whose first samples agreed by chance, such as those of few directions from a dim point, would never get
  * more, nor would its neighbours; and one whose samples have all missed an emitter covering a thirtieth of it

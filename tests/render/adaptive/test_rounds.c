@@ -103,11 +103,32 @@ static void test_nobody_is_left_behind(void **state) {
     assert_int_equal(behind[3], 4);
 }
 
+/* In closed form: where all variances are equal, all samples by one over the factor; where one has nearly
+ * all, it alone gets samples, until it has what the factor leaves beside the others. */
+static void test_few_samples_are_left_where_noise_is_concentrated(void **state) {
+    (void)state;
+    enum { PIXELS = 100 };
+    const double factor = 0.1, high = 1e6;
+    double variances[PIXELS];
+    uint32_t targets[PIXELS];
+    for (size_t i = 0; i < PIXELS; ++i) {
+        variances[i] = 1.0;
+        targets[i] = 4;
+    }
+    assert_relative(aur_samples_left(PIXELS, variances, factor, targets), 4 * PIXELS * (1.0 / factor - 1.0),
+                    1e-9);
+    variances[17] = high;
+    const double rest = factor * (high + PIXELS - 1) - (PIXELS - 1);
+    assert_relative(aur_samples_left(PIXELS, variances, factor, targets), 4.0 * (high / rest - 1.0), 1e-9);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rounds_to_an_error_take_what_it_needs),
-                                       cmocka_unit_test(test_rounds_pause_at_levels),
-                                       cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
-                                       cmocka_unit_test(test_limits),
-                                       cmocka_unit_test(test_nobody_is_left_behind)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rounds_to_an_error_take_what_it_needs),
+        cmocka_unit_test(test_rounds_pause_at_levels),
+        cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_nobody_is_left_behind),
+        cmocka_unit_test(test_few_samples_are_left_where_noise_is_concentrated)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
