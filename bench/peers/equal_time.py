@@ -31,7 +31,7 @@ GATHER = "finalgather:photons=60000,photons_per_texel=24,diffuse_samples=16,edge
 SECTION = "At equal time"
 
 
-def read(path):
+def read_image(path):
     return np.array(mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64)
 
 
@@ -42,7 +42,7 @@ def reference(aureole, scene, folder, samples):
         if not os.path.exists(path):
             subprocess.run([aureole, "render", scene, "-q", "-t", "1", "--sampler", "sobol", "--integrator", PATH, "--spp", str(samples), "--seed",
                             str(seed), "-o", path], check=True)
-        halves.append(read(path))
+        halves.append(read_image(path))
     return (halves[0] + halves[1]) / 2, ((halves[0] - halves[1]) ** 2).mean() / 4
 
 
@@ -84,25 +84,25 @@ def main():
 
         for name, title, command, first, allowed, render in (
                 ("finalgather", "final gathering", GATHER, 1, whole, time_to_quality.ours(aureole, GATHER, scene, 1)),
-                ("path", "our path tracer", PATH, 1, whole, time_to_quality.ours(aureole, PATH, scene, 1)),
+                ("path", "Aureole `path`", PATH, 1, whole, time_to_quality.ours(aureole, PATH, scene, 1)),
                 ("mitsuba", f"Mitsuba {mi.__version__}", "path, multijitter, llvm_ad_rgb", 4, square, peer)):
             count = samples_for(render, given.seconds, first, allowed)
             image, seconds = render(count, 1)
             error = math.sqrt(max(((image - reference_image) ** 2).mean() - reference_error, 0)) / reference_image.mean()
-            print(f"{name}: {count} samples a pixel, {seconds:.2f} s, {100 * error:.2f} %, mean {image.mean() / reference_image.mean():.4f}", flush=True)
-            rows.append((name, title, command, f"{count} samples a pixel, {seconds:.2f} s", image, error))
+            print(f"{name}: {count} samples per pixel, {seconds:.2f} s, {100 * error:.2f} %, mean {image.mean() / reference_image.mean():.4f}", flush=True)
+            rows.append((name, title, command, f"{count} samples per pixel, {seconds:.2f} s", image, error))
         for name, _, _, _, image, _ in rows:
             exr = os.path.join(folder, "picture.exr")
             mi.Bitmap(image.astype(np.float32)).write(exr)
             subprocess.run([aureole, "convert", exr, os.path.join(ROOT, f"docs/gallery/equal-{name}.png"), "--exposure", "0.5"], check=True)
     text = [f"## {SECTION}", "",
-            f"The measured Cornell box at {SIDE} x {SIDE} in about {given.seconds:g} CPU second{'s' * (given.seconds != 1)} of one thread each, by",
-            "`bench/peers/equal_time.py`. Of Mitsuba only the call that renders is counted, of ours the whole process, photon map included. The RMSE",
-            "is over the picture's mean, against the reference, whose own squared error is subtracted.", "",
+            f"The measured Cornell box at {SIDE} x {SIDE} pixels in about {given.seconds:g} CPU second{'s' * (given.seconds != 1)} on one thread, by",
+            "`bench/peers/equal_time.py`. For Mitsuba only the render call counts, for Aureole the whole process. The RMSE is relative to the mean;",
+            "the squared error of the reference is subtracted.", "",
             "| " + " | ".join(title for _, title, *_ in rows) + " |", "|" + "---|" * len(rows),
             "| " + " | ".join(f"![{title}](gallery/equal-{name}.png)" for name, title, *_ in rows) + " |",
-            "| " + " | ".join(f"RMSE {'' if index else 'of its own '}{100 * row[5]:.2g} %" for index, row in enumerate(rows)) + " |",
-            "| " + " | ".join(row[3] or f"{given.samples} samples a pixel, twice" for row in rows) + " |",
+            "| " + " | ".join(f"RMSE {100 * row[5]:.2g} %" for row in rows) + " |",
+            "| " + " | ".join(row[3] or f"{given.samples} samples per pixel, twice" for row in rows) + " |",
             "| " + " | ".join(f"`{row[2] or PATH}`" for row in rows) + " |", ""]
     page = os.path.join(ROOT, "docs/gallery.md")
     with open(page, encoding="utf-8") as file:
