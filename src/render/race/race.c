@@ -142,7 +142,8 @@ static void mean_of_blocks(const aur_race *race, size_t blocks, double (*means)[
     }
 }
 
-/* What the camera sees of emitters directly, R + G + B: the mean over `count` pixels of the film. */
+/* What the camera sees of emitters directly, R + G + B: the mean over `count` pixels of the film. Films leave
+ * out what is not finite. */
 static double mean_emission(aur_race *race, size_t count, const size_t *pixels) {
     const aur_scene *const scene = aur_renderer_scene(race->renderer);
     const aur_view view = {.scene = scene, .width = race->layout.width, .height = race->layout.height};
@@ -158,11 +159,11 @@ static double mean_emission(aur_race *race, size_t count, const size_t *pixels) 
         }
         aur_emission_at_centres(&view, part, x, y, emission);
         for (size_t k = 0; k < part; ++k)
-            sum += (double)emission[k] * (double)aur_camera_factor(scene) / (double)count;
+            sum += isfinite(emission[k]) ? (double)emission[k] / (double)count : 0.0;
     }
     race->spent.all.rays += aur_rays_traced - before;
     race->spent.budget += aur_rays_traced - before;
-    return sum;
+    return sum * (double)aur_camera_factor(scene);
 }
 
 /* The same over the film, by at most 65,536 pixels. */
@@ -174,8 +175,8 @@ static aur_result survey_emission(aur_race *race, aur_error *error) {
     size_t *const pixels = calloc((race->width / step + 1) * (race->height / step + 1), sizeof *pixels);
     if (pixels == NULL)
         return aur_fail_memory(error);
-    for (size_t y = step / 2; y < race->height; y += step)
-        for (size_t x = step / 2; x < race->width; x += step)
+    for (size_t y = step / 2 < race->height ? step / 2 : 0; y < race->height; y += step)
+        for (size_t x = step / 2 < race->width ? step / 2 : 0; x < race->width; x += step)
             pixels[count++] = y * race->width + x;
     race->emitted = mean_emission(race, count, pixels);
     free(pixels);
@@ -183,16 +184,19 @@ static aur_result survey_emission(aur_race *race, aur_error *error) {
 }
 
 /* The image's mean relative to the blocks'. Few blocks may have more or less of visible emitters than the
- * image, which are much of its mean. Camera rays alone tell how much. */
+ * image, which are much of its mean. Camera rays alone tell how much; a block where they see more than all
+ * light has none of other light. */
 static double mean_beside_blocks(aur_race *race, size_t blocks, const double (*means)[3]) {
-    double mean = 0.0, emitted = 0.0;
+    double mean = 0.0, others = 0.0;
     for (size_t b = 0; b < blocks; ++b) {
         size_t pixels[PIXELS];
         const size_t count = pixels_of(race, b, pixels);
-        mean += (means[b][0] + means[b][1] + means[b][2]) / (double)blocks;
-        emitted += mean_emission(race, count, pixels) / (double)blocks;
+        const double light = means[b][0] + means[b][1] + means[b][2];
+        mean += light / (double)blocks;
+        others += fmax(light - mean_emission(race, count, pixels), 0.0) / (double)blocks;
     }
-    return mean > 0.0 ? (race->emitted + fmax(mean - emitted, 0.0)) / mean : 1.0;
+    const double part = (race->emitted + others) / mean;
+    return part > 0.0 && isfinite(part) ? part : 1.0;
 }
 
 /* The weights of the blocks' means in the image. The exposure of a display depends on the geometric mean,
