@@ -48,7 +48,7 @@ void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]);
  * it sees of each, not from their reflected light. Such pixels get extra camera rays that only find which
  * surface they hit. The fractions that these rays find weigh the means of the shaded samples.
  *
- * What the neighbours of a pixel see: one surface, several, or several of which one is a light. */
+ * What the neighbours of a pixel see: one surface, several, or a light among several. */
 typedef enum aur_gather_edge { AUR_NO_EDGE, AUR_PLAIN_EDGE, AUR_LIGHT_EDGE } aur_gather_edge;
 
 /* Edges of the pixels with samples, row by row; `strata` are those of the tile at (x, y). `equal_counts`: all

@@ -282,8 +282,8 @@ static void test_holds_where_pixels_share_samples(void **state) {
     assert_in_range(held, 0.93 * TRIALS - 57, 0.97 * TRIALS + 38);
 }
 
-/* Two blocks side by side: with one source of noise they count like one block; independent ones, of which
- * each has a sum of squares as large, like two, up to chance that more trials reduce. */
+/* Two blocks side by side: with one source of noise they count like one block; independent ones with equal
+ * sums of squares like two, and a little more by chance. */
 static void test_counts_what_blocks_have_in_common(void **state) {
     (void)state;
     enum { COUNT = AUR_REPLICAS_MAX, VALUES_OF_BLOCK = 16, MANY = 400 };

@@ -38,7 +38,7 @@ static const char wall[] =
     "<scale value='2'/><translate y='1'/></transform><bsdf type='twosided'><bsdf type='roughplastic'><float "
     "name='alpha' value='.3'/></bsdf></bsdf></shape></scene>";
 
-/* A large room, nearly all of whose mean is a light source in a fiftieth of the image. */
+/* A large room, nearly all of whose mean is a light source in a thirtieth of the image. */
 static const char seen[] =
     "<shape type='cube'><transform name='to_world'><scale value='4'/></transform><bsdf type='twosided'><bsdf "
     "type='diffuse'/></bsdf></shape><shape type='rectangle'><transform name='to_world'><scale value='.1'/>"
