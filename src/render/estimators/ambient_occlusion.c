@@ -114,4 +114,5 @@ const aur_integrator_descriptor aur_integrator_ambient_occlusion = {
     .release = release,
     .tile = tile,
     .cuts = true,
+    .own_image = true,
 };

@@ -367,4 +367,5 @@ const aur_integrator_descriptor aur_integrator_aov = {
     .release = release,
     .tile = add_tile,
     .cuts = true,
+    .own_image = true,
 };

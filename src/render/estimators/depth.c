@@ -15,4 +15,5 @@ const aur_integrator_descriptor aur_integrator_depth = {
             .summary = "distance along the camera ray to the first surface",
             .source = "Mitsuba 3"},
     .radiance = radiance,
+    .own_image = true,
 };

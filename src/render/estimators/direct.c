@@ -111,4 +111,5 @@ const aur_integrator_descriptor aur_integrator_direct = {
     .initial = &initial,
     .create = create,
     .radiance = radiance,
+    .own_image = true,
 };

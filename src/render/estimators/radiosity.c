@@ -243,4 +243,5 @@ const aur_integrator_descriptor aur_integrator_radiosity = {
     .create = create,
     .release = release,
     .tile = aur_radiosity_tile,
+    .own_image = true,
 };

@@ -70,6 +70,8 @@ typedef struct aur_integrator_descriptor {
     /* Of `tile`: it adds a pixel's samples one after the other, so that any division into calls gives the
      * same bits. Otherwise it calls aur_tile_stops itself, and returns AUR_ERROR_CANCELLED. */
     bool cuts;
+    /* Its image is not the radiance of all paths of light, so no other integrator may replace it. */
+    bool own_image;
     /* Camera rays hit emitters, so that their outlines contribute to the image's error. */
     bool shows_emitters;
 } aur_integrator_descriptor;

@@ -26,11 +26,16 @@ END
 agree() { # agree KEYS WORDS: with many samples by the scene's integrator, and names these keys
   lit "$1" >lit.xml
   "$aureole" render lit.xml --spp 1024 -q --no-cache -o many.exr
-  "$aureole" render lit.xml --error 3% --error-measure mean --no-cache -o few.exr 2>said.txt
+  "$aureole" render lit.xml --error 3% --error-measure mean --no-cache -v -o few.exr 2>said.txt
   grep -q "by $2\$" said.txt || { echo "not by $2: $(cat said.txt)"; exit 1; }
   "$aureole" compare many.exr few.exr --json | sed -n 's/.*"relative_rmse": *\([^,}]*\).*/\1/p' |
     awk '{ seen = 1; bad = $1 > .06 } END { exit !seen || bad }' || { echo "$1: another image"; exit 1; }
 }
 agree "<boolean name='hide_emitters' value='true'/>" path:max_depth=5,hide_emitters=true
 agree "<float name='clamp' value='.5'/>" path:max_depth=5,clamp=.5
-agree "<boolean name='hide_emitters' value='false'/><float name='clamp' value='0'/>" '[a-z]*:.*max_depth=5'
+agree "<boolean name='hide_emitters' value='False'/><float name='clamp' value='0.0'/>" '[a-z]*:.*max_depth=5'
+grep -q 'candidate gather-32: .* rays' said.txt || { echo "final gathering is left out: $(cat said.txt)"; exit 1; }
+# Without mirrors light tracing has an image of its own, which path tracing does not have.
+lit "<boolean name='specular_paths' value='False'/>" | sed "s/type='path'/type='ptracer'/" >traced.xml
+if "$aureole" render traced.xml --error 3% --no-cache -o few.exr 2>said.txt; then echo "rendered with mirrors"; exit 1; fi
+grep -q 'light paths cannot be spent pixel by pixel' said.txt || { cat said.txt; exit 1; }
