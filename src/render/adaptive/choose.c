@@ -321,12 +321,12 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
 }
 
 /* All replicas of the race share a photon map, so that it does not see the maps' noise, which samples do not
- * remove. From the second round on what is left is known, but the other candidate's need is only predicted:
- * half as much as is left leaves room for that. */
+ * remove. From the second round on what is left is known better: another candidate is taken that needs less
+ * from its start. */
 static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
     const aur_race *const race = &adaptive->race;
     const double other = race->entries[race->order[rank_without_maps(race)]].need;
-    return adaptive->candidate.rounds > 1 && other > 0.0 && rest->rays > 2.0 * other;
+    return adaptive->candidate.rounds > 1 && other > 0.0 && rest->rays > other;
 }
 
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
