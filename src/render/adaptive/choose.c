@@ -256,14 +256,6 @@ static aur_result reject(aur_adaptive *adaptive, size_t rank, const char *reason
     return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
-/* The rank of the best candidate without photon maps. */
-static size_t rank_without_maps(const aur_race *race) {
-    size_t rank = 0;
-    while (rank + 1 < race->order_count && aur_race_gathers(race->order[rank]))
-        ++rank;
-    return rank;
-}
-
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,
  * and the rays of both, at the least work. The noise's square falls in proportion to one over rays, which go
  * to few pixels where it is concentrated; the width of the bias's interval too by more samples, but to the
@@ -320,13 +312,20 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
     return AUR_OK;
 }
 
-/* All replicas of the race share a photon map, so that it does not see the maps' noise, which samples do not
- * remove. From the second round on what is left is known better: another candidate is taken that needs less
- * from its start. */
+/* More is left than the next candidate needs from its start. The race's few blocks see neither the noise of
+ * photon maps, which samples do not remove, nor rare bright paths. What is left is known badly at first, too:
+ * once half of the next one's need is spent, at most one and a half times that need is lost, as far as it is
+ * right (ski rental with predictions, Purohit and others 2018). */
 static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
     const aur_race *const race = &adaptive->race;
-    const double other = race->entries[race->order[rank_without_maps(race)]].need;
-    return adaptive->candidate.rounds > 1 && other > 0.0 && rest->rays > other;
+    if (adaptive->target.error == 0.0 || adaptive->rank + 1 >= race->order_count)
+        return false;
+    const double next = race->entries[race->order[adaptive->rank + 1]].need;
+    return next > 0.0 && rest->rays > next && aur_replicas_rays(&adaptive->candidate.replicas) > 0.5 * next;
+}
+
+static aur_result leave(aur_adaptive *adaptive, bool *again, aur_error *error) {
+    return reject(adaptive, adaptive->rank + 1, "more rays were left than the next one needs", again, error);
 }
 
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
@@ -347,9 +346,13 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
     aur_result result = AUR_OK;
     *again = false;
     adaptive->unchecked = true;
-    if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_dark(&adaptive->candidate)) {
-        adaptive->unchecked = false;
-        return AUR_OK;
+    const bool dark = aur_candidate_is_dark(&adaptive->candidate);
+    if (adaptive->corrections.replicas.pixel_count == 0 || dark) {
+        const rest_of_work rest = find_rest(adaptive);
+        if (!dark && is_behind(adaptive, &rest))
+            result = leave(adaptive, again, error);
+        adaptive->unchecked = result != AUR_OK;
+        return result;
     }
     if (!last && adaptive->corrections.steps > 0) /* by the values of the round */
         bound_bias_by(adaptive, adaptive->target.measure);
@@ -361,9 +364,8 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
         else if (square > 0.0 && bias->low > BIAS_PART * square)
             result = reject(adaptive, adaptive->rank + 1,
                             "the bias of its photon map is too large for the target error", again, error);
-        else if (square > 0.0 && is_behind(adaptive, &rest))
-            result = reject(adaptive, rank_without_maps(&adaptive->race),
-                            "its photon maps have more noise than samples remove", again, error);
+        else if (is_behind(adaptive, &rest))
+            result = leave(adaptive, again, error);
         else if (ends && !is_met(adaptive))
             result = make_room(adaptive, &rest, again, error);
         else
