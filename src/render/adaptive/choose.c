@@ -312,15 +312,19 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
     return AUR_OK;
 }
 
+/* What the next candidate in the race was predicted to need; 0: there is none, or no target error. */
+static double next_need(const aur_adaptive *adaptive) {
+    const aur_race *const race = &adaptive->race;
+    const bool follows = adaptive->target.error > 0.0 && adaptive->rank + 1 < race->order_count;
+    return follows ? race->entries[race->order[adaptive->rank + 1]].need : 0.0;
+}
+
 /* More is left than the next candidate needs from its start. The race's few blocks see neither the noise of
  * photon maps, which samples do not remove, nor rare bright paths. What is left is known badly at first, too:
  * once half of the next one's need is spent, at most one and a half times that need is lost, as far as it is
  * right (ski rental with predictions, Purohit and others 2018). */
 static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
-    const aur_race *const race = &adaptive->race;
-    if (adaptive->target.error == 0.0 || adaptive->rank + 1 >= race->order_count)
-        return false;
-    const double next = race->entries[race->order[adaptive->rank + 1]].need;
+    const double next = next_need(adaptive);
     return next > 0.0 && rest->rays > next && aur_replicas_rays(&adaptive->candidate.replicas) > 0.5 * next;
 }
 
@@ -348,9 +352,10 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
     adaptive->unchecked = true;
     const bool dark = aur_candidate_is_dark(&adaptive->candidate);
     if (adaptive->corrections.replicas.pixel_count == 0 || dark) {
-        const rest_of_work rest = find_rest(adaptive);
-        if (!dark && is_behind(adaptive, &rest))
-            result = leave(adaptive, again, error);
+        if (!dark && next_need(adaptive) > 0.0) {
+            const rest_of_work rest = find_rest(adaptive);
+            result = is_behind(adaptive, &rest) ? leave(adaptive, again, error) : AUR_OK;
+        }
         adaptive->unchecked = result != AUR_OK;
         return result;
     }
