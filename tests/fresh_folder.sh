@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Runs a script test in a folder that is empty, so that what an earlier run left there is not taken for its own:
-# fresh_folder.sh FOLDER SCRIPT ARGUMENT...
+# Runs a test in a folder of its own that is empty, so that it reads no file of an earlier run or of another test that runs
+# beside it: fresh_folder.sh FOLDER COMMAND ARGUMENT...
 set -euo pipefail
 folder=$1
 shift
 rm -rf -- "$folder"
 mkdir -p -- "$folder"
 cd -- "$folder"
-exec bash "$@"
+exec "$@"
