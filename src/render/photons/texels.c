@@ -52,15 +52,20 @@ static bool add_texels(layout *work, size_t count, double area) {
     return true;
 }
 
+/* The cluster with this key, or the empty slot for it. */
+static cluster *slot_of(const layout *work, uint64_t key) {
+    size_t at = (size_t)aur_mix64(key) & work->mask;
+    while (work->slots[at].key != 0 && work->slots[at].key != key)
+        at = (at + 1) & work->mask;
+    return &work->slots[at];
+}
+
 /* Joins the texel of the element's cube. */
 static bool join_cluster(layout *work, const aur_placement *placement, uint32_t primitive, double area) {
     aur_vector position, normal;
     aur_element_middle(work->scene, placement, primitive, &position, &normal);
     const uint64_t key = key_of(work, position, normal);
-    size_t at = (size_t)aur_mix64(key) & work->mask;
-    while (work->slots[at].key != 0 && work->slots[at].key != key)
-        at = (at + 1) & work->mask;
-    cluster *const slot = &work->slots[at];
+    cluster *const slot = slot_of(work, key);
     if (slot->key == 0) {
         *slot = (cluster){key, (uint32_t)work->texels->count};
         if (!add_texels(work, 1, 0.0))
@@ -95,6 +100,57 @@ static aur_result lay_out_all(layout *work) {
         }
     }
     return AUR_OK;
+}
+
+/* The texel that one has joined, directly or not. */
+static uint32_t joined_by(const uint32_t *into, uint32_t texel) {
+    while (into[texel] != texel)
+        texel = into[texel];
+    return texel;
+}
+
+/* The largest texel of the cubes around one, for the same direction; its own texel if there is none. */
+static uint32_t largest_beside(const layout *work, const cluster *slot, const uint32_t *into) {
+    const uint64_t cube = (slot->key - 1) / 8, facing = (slot->key - 1) % 8, mask = COORDINATE_MAX;
+    const uint64_t at[3] = {cube >> (2 * COORDINATE_BITS), cube >> COORDINATE_BITS & mask, cube & mask};
+    uint32_t largest = slot->texel;
+    for (uint64_t k = 0; k < 27; ++k) {
+        const uint64_t x = at[0] + k / 9 - 1, y = at[1] + k / 3 % 3 - 1, z = at[2] + k % 3 - 1;
+        if (x > mask || y > mask || z > mask)
+            continue;
+        const uint64_t key = (x << (2 * COORDINATE_BITS) | y << COORDINATE_BITS | z) * 8 + facing + 1;
+        const cluster *const other = slot_of(work, key);
+        const uint32_t texel = other->key != 0 ? joined_by(into, other->texel) : largest;
+        if (work->texels->areas[texel] > work->texels->areas[largest])
+            largest = texel;
+    }
+    return largest;
+}
+
+/* Clusters smaller than a photon's share of the area, such as a corner of a surface in its cube, join a
+ * neighbour: the rare photon there would make its texel brighter than any light. */
+static bool join_slivers(layout *work) {
+    aur_texels *const texels = work->texels;
+    uint32_t *const into = malloc((texels->count + 1) * sizeof *into);
+    const double least = work->cell_area / work->photons_a_texel;
+    for (uint32_t i = 0; i < texels->count && into != NULL; ++i)
+        into[i] = i;
+    for (size_t i = 0; i <= work->mask && into != NULL; ++i) {
+        const cluster *const slot = &work->slots[i];
+        if (slot->key == 0 || (double)texels->areas[slot->texel] >= least)
+            continue;
+        const uint32_t largest = largest_beside(work, slot, into);
+        if (largest == slot->texel)
+            continue;
+        texels->areas[largest] += texels->areas[slot->texel];
+        texels->areas[slot->texel] = 0.0f;
+        into[slot->texel] = largest;
+    }
+    for (size_t i = 0; i < texels->elements.count && into != NULL; ++i)
+        texels->ranges[i].first = joined_by(into, texels->ranges[i].first);
+    const bool allocated = into != NULL;
+    free(into);
+    return allocated;
 }
 
 /* The area that photons can reach: the elements that were hit, and, where elements are small compared with
@@ -149,6 +205,8 @@ aur_result aur_texels_create(const aur_scene *scene, aur_elements elements, cons
         measure(&work);
         result = lay_out_all(&work);
     }
+    if (result == AUR_OK && !join_slivers(&work))
+        result = AUR_ERROR_MEMORY;
     free(work.slots);
     if (result != AUR_OK)
         aur_texels_release(texels);

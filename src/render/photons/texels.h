@@ -1,7 +1,8 @@
 /* Texels over the surfaces of a scene, sized by photon density. An element with many photons is divided into
  * side x side parts of equal area; small elements that are close together and have similar normals share one
- * texel. So the light at a hit is one array read, photons count only for the surface that they hit, and the
- * texels have the total power of the photons. */
+ * texel, which is no smaller than a photon's share of the lit area where it has neighbours. So the light at a
+ * hit is one array read, photons count only for the surface that they hit, and the texels have the total
+ * power of the photons. */
 #pragma once
 
 #include "render/scene/elements.h"
@@ -15,7 +16,7 @@ typedef struct aur_texels {
     aur_elements elements;
     aur_texel_range *ranges; /* one per element */
     size_t count;
-    float *areas; /* of texels, square scene units */
+    float *areas; /* of texels, square scene units; 0: no element has it */
 } aur_texels;
 
 enum { AUR_TEXELS_SIDE_MAX = 4096 };

@@ -156,6 +156,57 @@ static void empty_maps_end_early(void **state) {
     aur_scene_destroy(unlit);
 }
 
+/* A ball of so many small triangles that each texel has many, in a sky that lights all of it alike. */
+static aur_scene *load_ball(void) {
+    enum { ROWS = 96, COLUMNS = 192 };
+    char *text;
+    size_t size;
+    FILE *const file = open_memstream(&text, &size);
+    assert_non_null(file);
+    for (size_t i = 0; i <= ROWS; ++i)
+        for (size_t j = 0; j < COLUMNS; ++j) {
+            const double theta = AUR_PI * (double)i / ROWS, phi = 2.0 * AUR_PI * (double)j / COLUMNS;
+            fprintf(file, "v %.9g %.9g %.9g\n", sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta));
+        }
+    for (size_t i = 0; i < ROWS; ++i)
+        for (size_t j = 1; j <= COLUMNS; ++j) {
+            const size_t upper = i * COLUMNS, lower = upper + COLUMNS, next = j % COLUMNS + 1;
+            if (i > 0)
+                fprintf(file, "f %zu %zu %zu\n", upper + j, lower + j, upper + next);
+            if (i < ROWS - 1)
+                fprintf(file, "f %zu %zu %zu\n", upper + next, lower + j, lower + next);
+        }
+    fclose(file);
+    write_file("ball.obj", text, size);
+    free(text);
+    return must_load_body("<shape type='obj'><string name='filename' value='ball.obj'/></shape>"
+                          "<emitter type='constant'/>");
+}
+
+/* A texel much smaller than a photon's share of the area would hold one seldom, and then shine more than any
+ * light: cubes of the grid cut such corners from a ball, and its faces change direction there. All that
+ * photons bring is still in the texels, whose area is the triangles'. */
+static void texels_are_not_slivers(void **state) {
+    (void)state;
+    aur_scene *const scene = load_ball();
+    for (size_t photons = 500; photons <= 8000; photons *= 4) {
+        aur_irradiance_map *const map = make_map(scene, photons, 0);
+        double area = 0.0, least = INFINITY, power = 0.0;
+        for (size_t i = 0; i < map->texels.count; ++i) {
+            const double here = (double)map->texels.areas[i];
+            area += here;
+            least = here > 0.0 ? fmin(least, here) : least;
+            power += here * (double)map->lights[2 * i].irradiance.y;
+        }
+        assert_relative(area, 4.0 * AUR_PI, 1e-3); /* of the triangles, 1/3,000 less than the ball's */
+        assert_relative(power, 4.0 * AUR_PI * AUR_PI, 5.0 / sqrt((double)photons));
+        /* The lit area is known from the photons to a few hundredths. */
+        assert_true(least >= 0.8 * 4.0 * AUR_PI / (double)map->photons);
+        aur_irradiance_map_destroy(map);
+    }
+    aur_scene_destroy(scene);
+}
+
 /* Texels lose no photon and count none twice: their total area is that of the walls, their power that of the
  * photons, to rounding. */
 static void texels_hold_all_the_power(void **state) {
@@ -304,11 +355,17 @@ static void photons_come_from_any_set(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(photons_bring_all_the_power), cmocka_unit_test(particles_are_the_single_ones),
-        cmocka_unit_test(endless_paths_are_reported),  cmocka_unit_test(empty_maps_end_early),
-        cmocka_unit_test(texels_hold_all_the_power),   cmocka_unit_test(lookups_agree_with_density_estimates),
-        cmocka_unit_test(unlit_sides_stay_dark),       cmocka_unit_test(triangle_texels_cover_it_evenly),
-        cmocka_unit_test(photons_come_from_any_set),   cmocka_unit_test(does_not_depend_on_threads),
+        cmocka_unit_test(photons_bring_all_the_power),
+        cmocka_unit_test(particles_are_the_single_ones),
+        cmocka_unit_test(endless_paths_are_reported),
+        cmocka_unit_test(empty_maps_end_early),
+        cmocka_unit_test(texels_are_not_slivers),
+        cmocka_unit_test(texels_hold_all_the_power),
+        cmocka_unit_test(lookups_agree_with_density_estimates),
+        cmocka_unit_test(unlit_sides_stay_dark),
+        cmocka_unit_test(triangle_texels_cover_it_evenly),
+        cmocka_unit_test(photons_come_from_any_set),
+        cmocka_unit_test(does_not_depend_on_threads),
     };
     return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
 }
