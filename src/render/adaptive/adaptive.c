@@ -2,7 +2,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -152,8 +151,8 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     aur_render_options_init(&local, NULL);
     aur_result result = aur_options_read(given, sizeof local, &local, "aur_render_options", error);
     if (result == AUR_OK)
-        result = aur_adaptive_integrator_of(aur_renderer_scene(renderer), local.integrator,
-                                            &adaptive->candidate.integrator, &adaptive->open, error);
+        result = aur_integrator_of_scene(aur_renderer_scene(renderer), local.integrator,
+                                         &adaptive->candidate.integrator, &adaptive->open, error);
     if (result != AUR_OK)
         return result;
     adaptive->progress = local.progress;
@@ -278,7 +277,7 @@ static aur_result render_rounds(aur_adaptive *adaptive, stretch *lap, bool *agai
     aur_result result = AUR_OK;
     *again = false;
     if (adaptive->unchecked) /* which was interrupted */
-        result = aur_adaptive_check_bias(adaptive, false, again, error);
+        result = aur_adaptive_check_round(adaptive, false, again, error);
     while (result == AUR_OK && !*again && (candidate->rounds == 0 || candidate->begun || !is_met(adaptive))) {
         const aur_goal goal = aur_adaptive_goal(adaptive);
         if (!candidate->begun &&
@@ -287,7 +286,7 @@ static aur_result render_rounds(aur_adaptive *adaptive, stretch *lap, bool *agai
             break;
         result = aur_candidate_render(candidate, adaptive->target.confidence, &adaptive->cancelled, error);
         if (result == AUR_OK)
-            result = aur_adaptive_check_bias(adaptive, false, again, error);
+            result = aur_adaptive_check_round(adaptive, false, again, error);
         end_lap(adaptive, lap);
     }
     return result;
@@ -300,7 +299,7 @@ aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
     for (bool again = true; result == AUR_OK && again;) {
         result = render_rounds(adaptive, &lap, &again, error);
         if (result == AUR_OK && !again)
-            result = aur_adaptive_check_bias(adaptive, true, &again, error);
+            result = aur_adaptive_check_round(adaptive, true, &again, error);
     }
     aur_adaptive_measure_others(adaptive);
     end_lap(adaptive, &lap);

@@ -35,11 +35,6 @@ struct aur_adaptive {
     uint64_t others_rounds, others_steps; /* whose errors by other measures than the target's are computed */
 };
 
-/* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is
- * named, nor hides the scene's what final gathering shows, so the race may choose. Errors: MEMORY. */
-aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
-                                      bool *open, aur_error *error);
-
 /* What the bias of a candidate may be, in the units of the target error. */
 double aur_adaptive_bias_room(const aur_adaptive *adaptive);
 /* The target of the rounds. What is spent otherwise and counts is taken from the rays. */
@@ -63,6 +58,6 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
  * done. */
 void aur_adaptive_measure_others(aur_adaptive *adaptive);
 /* Must be called after each round; `last`: the noise target is met. Renders corrections, bounds the bias, and
- * switches to the next candidate if it is, or may be, too large: then `again` is true, and rounds start
- * again. */
-aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error);
+ * switches to the next candidate if it is, or may be, too large, or if too much is left to do: then `again`
+ * is true, and rounds start again. */
+aur_result aur_adaptive_check_round(aur_adaptive *adaptive, bool last, bool *again, aur_error *error);

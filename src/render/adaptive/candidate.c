@@ -1,7 +1,6 @@
 #include "render/adaptive/candidate.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,8 +106,7 @@ static double factor_to_error(const aur_candidate *candidate, double error) {
     return pow(fall * fall, 1.0 / candidate->rate);
 }
 
-/* Initial target of rounds, in units of the target error: variances from few samples are too uncertain to
- * plan further. */
+/* Where rounds lead first, in target errors: variances of few samples are too uncertain to plan further. */
 static const double FIRST_ERROR = 6.0;
 
 /* The next level below the bound, but not below the goal. */

@@ -2,10 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "points/base/error.h"
-#include "points/base/text.h"
 #include "render/adaptive/adaptive.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
@@ -24,54 +22,6 @@ enum { COLOURS = 3, SPREAD = 4 };
 
 static bool is_single(const aur_adaptive *adaptive) {
     return adaptive->target.replicas == 1;
-}
-
-/* Whether no other integrator gives the scene's image. Light tracing without mirrors has a key for that. */
-static bool has_own_image(const aur_scene *scene) {
-    const char *const plugin = aur_scene_integrator(scene)->plugin;
-    const char *const mirrors = aur_scene_integrator_key(scene, "specular_paths");
-    for (size_t i = 0; i < aur_integrator_table.count; ++i) {
-        const aur_row *const row = aur_integrator_table.rows[i];
-        if (strcmp(row->name, plugin) == 0 && ((const aur_integrator_descriptor *)row)->own_image)
-            return true;
-    }
-    return mirrors != NULL && strcasecmp(mirrors, "false") == 0;
-}
-
-/* Texts of one value: 0, 0.0; false, False. */
-static bool is_same(const char *a, const char *b) {
-    char *end_a, *end_b;
-    const bool equal = strtod(a, &end_a) == strtod(b, &end_b);
-    return strcasecmp(a, b) == 0 || (equal && end_a != a && end_b != b && *end_a == '\0' && *end_b == '\0');
-}
-
-aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
-                                      bool *open, aur_error *error) {
-    /* Keys of the scene's integrator on which the image depends; what final gathering has not, keeps it out.
-     */
-    static const struct {
-        const char *name, *unset;
-        bool gathers;
-    } keys[] = {{"max_depth", "", true}, {"hide_emitters", "false", false}, {"clamp", "0", false}};
-    *integrator = NULL;
-    *open = false;
-    if (requested == NULL && has_own_image(scene))
-        return AUR_OK;
-    const bool media = aur_scene_has_media(scene);
-    bool first = true;
-    *open = requested == NULL && !media;
-    *integrator = aur_new_text("%s", requested != NULL ? requested : media ? "volpath" : "path");
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0] && requested == NULL && *integrator != NULL; ++i) {
-        const char *const value = aur_scene_integrator_key(scene, keys[i].name);
-        if (value == NULL || is_same(value, keys[i].unset))
-            continue;
-        char *const longer = aur_new_text("%s%s%s=%s", *integrator, first ? ":" : ",", keys[i].name, value);
-        free(*integrator);
-        *integrator = longer;
-        *open = *open && keys[i].gathers;
-        first = false;
-    }
-    return *integrator != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 /* --- targets */
@@ -246,14 +196,13 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     return result;
 }
 
-/* Continues with the candidate of `rank` in the race instead. */
-static aur_result reject(aur_adaptive *adaptive, size_t rank, const char *reason, bool *again,
-                         aur_error *error) {
-    aur_race *const race = &adaptive->race;
-    aur_race_entry *const entry = &race->entries[adaptive->row];
+/* Continues with the next candidate in the race instead. */
+static aur_result reject(aur_adaptive *adaptive, const char *reason, bool *again, aur_error *error) {
+    const size_t next = adaptive->rank + 1, last = adaptive->race.order_count - 1;
+    aur_race_entry *const entry = &adaptive->race.entries[adaptive->row];
     *again = true;
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s", reason);
-    return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
+    return take_ranked(adaptive, next < last ? next : last, error);
 }
 
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,
@@ -301,9 +250,8 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
     const double least =
         fmax(adaptive->race.entries[AUR_RACE_PATH].need, aur_replicas_rays(&adaptive->candidate.replicas));
     if (!(rest->rays <= least) || adaptive->level < LEAST_LEVEL)
-        return reject(adaptive, adaptive->rank + 1,
-                      "more rays are needed to bound the bias of its photon map than are saved", again,
-                      error);
+        return reject(adaptive, "more rays are needed to bound the bias of its photon map than are saved",
+                      again, error);
     if (adaptive->bias[adaptive->target.measure].high > rest->bias)
         return correct(adaptive, error);
     while (adaptive->level >= bound * bound)
@@ -328,10 +276,6 @@ static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
     return next > 0.0 && rest->rays > next && aur_replicas_rays(&adaptive->candidate.replicas) > 0.5 * next;
 }
 
-static aur_result leave(aur_adaptive *adaptive, bool *again, aur_error *error) {
-    return reject(adaptive, adaptive->rank + 1, "more rays were left than the next one needs", again, error);
-}
-
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
 static bool are_corrections_due(const aur_adaptive *adaptive, const rest_of_work *rest) {
     const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
@@ -344,18 +288,19 @@ static bool are_corrections_due(const aur_adaptive *adaptive, const rest_of_work
            !(adaptive->target.error > 0.0 && small);
 }
 
-aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
+aur_result aur_adaptive_check_round(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
     const double square = adaptive->target.error * adaptive->target.error;
+    const char *const behind = "more rays were left than the next one needs";
     aur_result result = AUR_OK;
     *again = false;
     adaptive->unchecked = true;
     const bool dark = aur_candidate_is_dark(&adaptive->candidate);
     if (adaptive->corrections.replicas.pixel_count == 0 || dark) {
-        if (!dark && next_need(adaptive) > 0.0) {
-            const rest_of_work rest = find_rest(adaptive);
-            result = is_behind(adaptive, &rest) ? leave(adaptive, again, error) : AUR_OK;
-        }
+        const rest_of_work rest =
+            !dark && next_need(adaptive) > 0.0 ? find_rest(adaptive) : (rest_of_work){0};
+        if (is_behind(adaptive, &rest))
+            result = reject(adaptive, behind, again, error);
         adaptive->unchecked = result != AUR_OK;
         return result;
     }
@@ -367,10 +312,10 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
         if (are_corrections_due(adaptive, &rest))
             result = correct(adaptive, error);
         else if (square > 0.0 && bias->low > BIAS_PART * square)
-            result = reject(adaptive, adaptive->rank + 1,
-                            "the bias of its photon map is too large for the target error", again, error);
+            result = reject(adaptive, "the bias of its photon map is too large for the target error", again,
+                            error);
         else if (is_behind(adaptive, &rest))
-            result = leave(adaptive, again, error);
+            result = reject(adaptive, behind, again, error);
         else if (ends && !is_met(adaptive))
             result = make_room(adaptive, &rest, again, error);
         else

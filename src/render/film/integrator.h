@@ -128,6 +128,12 @@ aur_integrator_factory aur_integrator_create;
 aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
                                 aur_error *error);
 
+/* The integrator of an image to a target as aur_render_options take it, a new string; NULL: the scene's.
+ * `open`: none is requested, nor does the scene's hide what final gathering shows, so others may replace it.
+ * Errors: MEMORY. */
+aur_result aur_integrator_of_scene(const aur_scene *scene, const char *requested, char **integrator,
+                                   bool *open, aur_error *error);
+
 /* Frees what its data point to. */
 static inline void aur_integrator_release(void *object) {
     aur_integrator *const integrator = object;
