@@ -260,20 +260,20 @@ static aur_result make_room(aur_adaptive *adaptive, const rest_of_work *rest, bo
     return AUR_OK;
 }
 
-/* What the next candidate in the race was predicted to need; 0: there is none, or no target error. */
-static double next_need(const aur_adaptive *adaptive) {
-    const aur_race *const race = &adaptive->race;
-    const bool follows = adaptive->target.error > 0.0 && adaptive->rank + 1 < race->order_count;
-    return follows ? race->entries[race->order[adaptive->rank + 1]].need : 0.0;
+static bool can_be_left(const aur_adaptive *adaptive) {
+    return adaptive->target.error > 0.0 && adaptive->rank + 1 < adaptive->race.order_count;
 }
 
-/* More is left than the next candidate needs from its start. The race's few blocks see neither the noise of
- * photon maps, which samples do not remove, nor rare bright paths. What is left is known badly at first, too:
- * once half of the next one's need is spent, at most one and a half times that need is lost, as far as it is
- * right (ski rental with predictions, Purohit and others 2018). */
-static bool is_behind(const aur_adaptive *adaptive, const rest_of_work *rest) {
-    const double next = next_need(adaptive);
-    return next > 0.0 && rest->rays > next && aur_replicas_rays(&adaptive->candidate.replicas) > 0.5 * next;
+/* More is left than another candidate is expected to need from its start, which then follows. The race's few
+ * blocks see neither the noise of photon maps, which samples do not remove, nor rare bright paths. What is
+ * left is known badly at first, too: once half of the other's need is spent, at most one and a half times
+ * that need is lost, as far as it is right (ski rental with predictions, Purohit and others 2018). */
+static bool is_overtaken(aur_adaptive *adaptive, const rest_of_work *rest) {
+    const double spent = aur_replicas_rays(&adaptive->candidate.replicas);
+    const double expected = adaptive->race.entries[adaptive->row].need, whole = spent + rest->rays;
+    const double wrong = whole < INFINITY ? fmax(whole / expected, 1.0) : 1.0;
+    return can_be_left(adaptive) &&
+           aur_race_overtake(&adaptive->race, adaptive->rank, wrong, 2.0 * spent, rest->rays);
 }
 
 /* During rounds corrections have a part of the candidate's rays, or of a budget, if they are behind. */
@@ -297,9 +297,8 @@ aur_result aur_adaptive_check_round(aur_adaptive *adaptive, bool last, bool *aga
     adaptive->unchecked = true;
     const bool dark = aur_candidate_is_dark(&adaptive->candidate);
     if (adaptive->corrections.replicas.pixel_count == 0 || dark) {
-        const rest_of_work rest =
-            !dark && next_need(adaptive) > 0.0 ? find_rest(adaptive) : (rest_of_work){0};
-        if (is_behind(adaptive, &rest))
+        const rest_of_work rest = !dark && can_be_left(adaptive) ? find_rest(adaptive) : (rest_of_work){0};
+        if (is_overtaken(adaptive, &rest))
             result = reject(adaptive, behind, again, error);
         adaptive->unchecked = result != AUR_OK;
         return result;
@@ -314,7 +313,7 @@ aur_result aur_adaptive_check_round(aur_adaptive *adaptive, bool last, bool *aga
         else if (square > 0.0 && bias->low > BIAS_PART * square)
             result = reject(adaptive, "the bias of its photon map is too large for the target error", again,
                             error);
-        else if (is_behind(adaptive, &rest))
+        else if (is_overtaken(adaptive, &rest))
             result = reject(adaptive, behind, again, error);
         else if (ends && !is_met(adaptive))
             result = make_room(adaptive, &rest, again, error);

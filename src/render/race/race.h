@@ -101,3 +101,8 @@ typedef struct aur_race {
  * MEMORY, and those of rendering by path tracing. */
 aur_result aur_race_run(aur_race *race, aur_error *error);
 void aur_race_release(aur_race *race);
+
+/* Moves the candidate that is expected to need least behind that of `rank` in the order. The latter takes
+ * `wrong` times what it was predicted to need. False, and nothing is moved, if the former needs more than
+ * `left`, or was predicted to need more than `most`. */
+bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, double left);

@@ -300,13 +300,39 @@ static void test_shared_block(void **state) {
     release(room);
 }
 
+/* A candidate that takes far more than was predicted is overtaken by path tracing, whose prediction misses
+ * less of the same, before gathers that need less by prediction; and by none if less is left. */
+static void wrong_predictions_are_shared(void **state) {
+    (void)state;
+    aur_race race = {.order = {AUR_RACE_MIDDLE, AUR_RACE_SHARED, AUR_RACE_PATH}, .order_count = 3};
+    race.entries[AUR_RACE_MIDDLE].need = 1.0;
+    race.entries[AUR_RACE_SHARED].need = 1.1;
+    race.entries[AUR_RACE_PATH].need = 2.0;
+    assert_false(aur_race_overtake(&race, 0, 1.0, 9.0, 1.0));
+    assert_false(aur_race_overtake(&race, 0, 1.0, 1.0, 9.0));
+    assert_true(aur_race_overtake(&race, 0, 1.0, 9.0, 1.2));
+    assert_int_equal(race.order[1], AUR_RACE_SHARED);
+    assert_false(aur_race_overtake(&race, 0, 100.0, 9.0, 20.0));
+    assert_true(aur_race_overtake(&race, 0, 100.0, 9.0, 90.0));
+    assert_int_equal(race.order[0], AUR_RACE_MIDDLE);
+    assert_int_equal(race.order[1], AUR_RACE_PATH);
+    assert_int_equal(race.order[2], AUR_RACE_SHARED);
+    assert_false(aur_race_overtake(&race, 2, 1.0, 9.0, 90.0));
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
-        cmocka_unit_test(test_candidates),  cmocka_unit_test(test_bias),
-        cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
-        cmocka_unit_test(test_small_race),  cmocka_unit_test(test_shared_block),
-        cmocka_unit_test(test_coarse),      cmocka_unit_test(test_time),
-        cmocka_unit_test(test_apart),       cmocka_unit_test(test_seen_emitters)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win),
+                                       cmocka_unit_test(test_paths_win),
+                                       cmocka_unit_test(test_candidates),
+                                       cmocka_unit_test(test_bias),
+                                       cmocka_unit_test(test_no_race),
+                                       cmocka_unit_test(test_no_choice),
+                                       cmocka_unit_test(test_small_race),
+                                       cmocka_unit_test(test_shared_block),
+                                       cmocka_unit_test(test_coarse),
+                                       cmocka_unit_test(test_time),
+                                       cmocka_unit_test(test_apart),
+                                       cmocka_unit_test(test_seen_emitters),
+                                       cmocka_unit_test(wrong_predictions_are_shared)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
