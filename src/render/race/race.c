@@ -556,20 +556,21 @@ void aur_race_release(aur_race *race) {
     }
 }
 
-/* The parts of a prediction's error, in logarithms, that others share. All see the same blocks: what these
- * miss, gathers miss alike, and path tracing less so. In rooms of aureole-bench adaptive work over prediction
- * varies by a factor of exp(1), beside which it differs by exp(.32) between gathers and by exp(.84) between
- * them and path tracing: parts of 1 / (1 + .32^2) and 1 / (1 + .84^2). */
-static const double SHARED_BY_GATHERS = 0.9, SHARED_WITH_PATHS = 0.6;
+/* Candidates see the same blocks: what these miss, gathers miss alike, and path tracing less so. The squared
+ * deviation of the logarithm of work over prediction between gathers, and between them and path tracing, next
+ * to 1 for what they share. In rooms of aureole-bench adaptive the latter is .84^2, the former .32^2 without
+ * and a third with the rare bright paths of one candidate alone. */
+static const double BETWEEN_GATHERS = 1.0 / 3.0, TO_PATHS = 0.7;
 
 bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, double left) {
     const size_t row = race->order[rank];
+    const double tried = (double)rank + 1.0;
     size_t best = race->order_count;
     double least = INFINITY;
     for (size_t k = rank + 1; k < race->order_count; ++k) {
         const size_t other = race->order[k];
         const bool alike = aur_race_gathers(row) == aur_race_gathers(other);
-        const double shared = alike ? SHARED_BY_GATHERS : SHARED_WITH_PATHS;
+        const double shared = tried / (tried + (alike ? BETWEEN_GATHERS : TO_PATHS));
         const double need = race->entries[other].need * pow(wrong, shared);
         if (need > 0.0 && need < least) {
             least = need;
