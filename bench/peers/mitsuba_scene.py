@@ -51,8 +51,10 @@ def change(text, integrator=PATH, sampler=None, rfilter=None, width=None, height
 
 
 def load(text, width, height):
-    """Mitsuba's scene and its sensor, whose film has this size."""
+    """Mitsuba's scene and its sensor, whose film has this size: also in the text, because a sensor keeps the angle of its first film's shape."""
     import mitsuba as mi
+    for name, value in (("width", width), ("height", height)):
+        text = re.sub(rf"""(name=["']{name}["']\s+value=)["'][^"']*["']""", rf'\1"{value}"', text)
     try:
         scene = mi.load_string(text, parallel=False)
     except RuntimeError as error:
