@@ -556,10 +556,10 @@ void aur_race_release(aur_race *race) {
     }
 }
 
-/* Candidates see the same blocks: what these miss, gathers miss alike, and path tracing less so. The squared
- * deviation of the logarithm of work over prediction between gathers, and between them and path tracing, next
- * to 1 for what they share. In rooms of aureole-bench adaptive the latter is .84^2, the former .32^2 without
- * and a third with the rare bright paths of one candidate alone. */
+/* Candidates see the same blocks: what these miss, gathers miss alike, and path tracing less so. Variances of
+ * the logarithm of work over prediction, relative to the part that all share: between gathers, and between
+ * them and path tracing. With 1 for that part, rooms of aureole-bench adaptive have .32^2 and .84^2. A third
+ * allows for one gather that alone meets rare bright paths: chosen by two rooms, not measured. */
 static const double BETWEEN_GATHERS = 1.0 / 3.0, TO_PATHS = 0.7;
 
 bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, double left) {

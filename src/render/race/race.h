@@ -102,7 +102,7 @@ typedef struct aur_race {
 aur_result aur_race_run(aur_race *race, aur_error *error);
 void aur_race_release(aur_race *race);
 
-/* Moves the candidate that is expected to need least behind that of `rank` in the order. The latter takes
- * `wrong` times what it was predicted to need. False, and nothing is moved, if the former needs more than
- * `left`, or was predicted to need more than `most`. */
+/* Moves the candidate after `rank` that is expected to need least to the next place of the order; the one at
+ * `rank` takes `wrong` (at least 1) times the rays that were predicted. False, and nothing is moved, if the
+ * moved one is expected to need `left` rays or more, or was predicted to need more than `most`. */
 bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, double left);

@@ -48,7 +48,8 @@ z='.5'/></transform>$white</shape><shape type='rectangle'><transform name='to_wo
 y='1.5' z='1'/></transform><bsdf type='twosided'>$white</bsdf></shape></scene>
 END
 check ground 'rejected: more rays were left than the next one needs' --error 1% --error-measure mean -v
-# A candidate is left soon after half of the next one's need is spent, if more than that need is left: rounds are coarse.
+# A candidate is left after half of the next one's need is spent. A round takes up to four times that, and the need is predicted up to twice
+# too large: four times, and path tracing itself.
 rays_of() { "$aureole" render ground.xml -t 1 --no-cache -q --json -o out.exr --error 1% --error-measure mean "$@" 2>said.txt | tr , '\n' | sed -n 's/.*"rays": //p'; }
 chosen=$(rays_of) path=$(rays_of --integrator path:max_depth=8)
 [ "$chosen" -le $((5 * path)) ] || fail "the ground took $chosen rays, path tracing $path"

@@ -156,7 +156,7 @@ static void empty_maps_end_early(void **state) {
     aur_scene_destroy(unlit);
 }
 
-/* A ball of so many small triangles that each texel has many, in a sky that lights all of it alike. */
+/* A ball of so many small triangles that each texel has many, under an even sky. */
 static aur_scene *load_ball(void) {
     enum { ROWS = 96, COLUMNS = 192 };
     char *text;
