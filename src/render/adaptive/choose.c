@@ -198,11 +198,10 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
 
 /* Continues with the next candidate in the race instead. */
 static aur_result reject(aur_adaptive *adaptive, const char *reason, bool *again, aur_error *error) {
-    const size_t next = adaptive->rank + 1, last = adaptive->race.order_count - 1;
     aur_race_entry *const entry = &adaptive->race.entries[adaptive->row];
     *again = true;
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s", reason);
-    return take_ranked(adaptive, next < last ? next : last, error);
+    return take_ranked(adaptive, aur_race_next(&adaptive->race, adaptive->rank), error);
 }
 
 /* What is left to do, as a square of the noise, the rest of the error's square for the upper end of the bias,

@@ -584,3 +584,15 @@ bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, d
     race->order[rank + 1] = next;
     return true;
 }
+
+size_t aur_race_next(aur_race *race, size_t rank) {
+    const size_t last = race->order_count - 1;
+    if (rank < last)
+        return rank + 1;
+    for (size_t k = 0; k < last; ++k)
+        if (race->order[k] == AUR_RACE_PATH) {
+            race->order[k] = race->order[last];
+            race->order[last] = AUR_RACE_PATH;
+        }
+    return last;
+}

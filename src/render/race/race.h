@@ -106,3 +106,7 @@ void aur_race_release(aur_race *race);
  * `rank` takes `wrong` (at least 1) times the rays that were predicted. False, and nothing is moved, if the
  * moved one is expected to need `left` rays or more, or was predicted to need more than `most`. */
 bool aur_race_overtake(aur_race *race, size_t rank, double wrong, double most, double left);
+
+/* The rank after `rank`. Behind the last it is the last place, where path tracing then is, which was left
+ * before but has no bias: the one at `rank` would only repeat what it was rejected for. */
+size_t aur_race_next(aur_race *race, size_t rank);

@@ -318,6 +318,12 @@ static void wrong_predictions_are_shared(void **state) {
     assert_int_equal(race.order[1], AUR_RACE_PATH);
     assert_int_equal(race.order[2], AUR_RACE_SHARED);
     assert_false(aur_race_overtake(&race, 2, 1.0, 9.0, 90.0));
+    /* A gather behind path tracing that is rejected, too, is not taken again. */
+    assert_int_equal(aur_race_next(&race, 1), 2);
+    assert_int_equal(race.order[2], AUR_RACE_SHARED);
+    assert_int_equal(aur_race_next(&race, 2), 2);
+    assert_int_equal(race.order[2], AUR_RACE_PATH);
+    assert_int_equal(race.order[1], AUR_RACE_SHARED);
 }
 
 int main(void) {
